@@ -23,7 +23,7 @@ struct BenchScene {
 /// and files without a camera, are framed.
 BenchScene load_bench_scene(const BenchOptions& options);
 
-/// Pixels along one side of the picture for about so many rays: a multiple of 8.
+/// Pixels along one side of the picture for about `rays` rays: a multiple of 8.
 int picture_side_px(std::int64_t rays);
 
 }  // namespace bihive::bench

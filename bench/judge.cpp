@@ -38,7 +38,7 @@ Verdict judge(const SphereSet& spheres, const WideTree& tree, const RaySet& set,
     const Ray ray = rays.at(i);
     const std::int64_t theirs = peer[static_cast<std::size_t>(i)];
     if (set.facts.any_hit) {
-      // An answer "hidden" must name a sphere that the ray meets.
+      // An answer "occluded" must name a sphere that the ray meets.
       const bool hidden = ours.hidden[static_cast<std::size_t>(i)] != 0;
       if (hidden == (theirs != 0)) continue;
       ++verdict.differ;

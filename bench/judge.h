@@ -12,7 +12,7 @@
 
 namespace bihive::bench {
 
-/// Our answers to a ray set: hits, or hidden (any hit).
+/// Our answers to a ray set: hits, or occlusion (any hit).
 struct Answers {
   HitBatch hits;
   std::vector<std::uint8_t> hidden;

@@ -11,9 +11,9 @@ namespace bihive::bench {
 
 /// primary: 8 x 8 pixel blocks of a camera. random: any origin, any direction. shadow: from the hits of the primary
 /// rays to the light. mirrorK: mirrored K times. mirror_shadowK: from the hits of mirrorK to the light. ao: ambient
-/// occlusion from the hits of the primary rays, along directions that all of them share, as the renderer asks.
-/// ao_random: the same with directions of its own for each hit, by cosine, as a path tracer asks. comb: parallel rays
-/// towards -z through the box of random rays, row by row.
+/// occlusion from the hits of the primary rays, along directions shared by all, as in the renderer. ao_random: the same
+/// with its own directions for each hit, by cosine, as in a path tracer. comb: parallel rays towards -z through the box
+/// of random rays, row by row.
 enum class Kind {
   primary,
   random,
@@ -36,7 +36,7 @@ struct KindFacts {
   std::int64_t tile;  ///< rays that a thread takes at a time, at most, unless the user says another number
 };
 
-/// A thread takes all its random rays in one call, because the engine sorts them, and sorts more of them better.
+/// A thread passes all its random rays in one call, because the engine sorts them, and does better with more.
 constexpr std::int64_t kTile = 131072, kRandomTile = 1048576;
 
 constexpr std::array<KindFacts, 11> kKinds{{{Kind::primary, "primary", false, RayOrder::blocks, kTile},

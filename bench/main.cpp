@@ -1,4 +1,4 @@
-// bihive-bench: times the wide engine on one input, beside Embree if asked.
+// bihive-bench: times the wide engine on one input, optionally beside Embree.
 
 #include <cstdio>
 #include <exception>

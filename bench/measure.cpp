@@ -28,7 +28,7 @@ constexpr std::int64_t kFewestBuilds = 3;
 constexpr double kLongestTimingMs = 200;
 constexpr std::int64_t kFewestTiles = 8;
 // The modes of the peer that come this close to the fastest on a sample are measured in full. A mode that is slower
-// than kHopeless times the best so far at its first try gets no second try.
+// than kHopeless times the current best at its first try gets no second try.
 constexpr double kCloseToBest = 1.1;
 constexpr double kHopeless = 1.5;
 constexpr int kTries = 3;

@@ -39,7 +39,7 @@ struct KindResult {
 
 /// A whole picture with the scene's own materials, light and plane, as radiance.
 struct FrameResult {
-  double ms = 0;  ///< 0: not asked for
+  double ms = 0;  ///< 0: not requested
   std::int64_t width_px = 0, height_px = 0;
   std::int64_t rays = 0;  ///< of all kinds
 };

@@ -5,7 +5,7 @@
 
 namespace bihive::bench {
 
-/// Resident bytes now; 0 if the system does not say.
+/// Resident bytes now; 0 if the system does not report them.
 std::int64_t resident_bytes();
 
 /// The peak of resident bytes since forget_peak().

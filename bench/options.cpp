@@ -80,7 +80,7 @@ void add_input(CLI::App& app, BenchOptions& options) {
 }  // namespace
 
 ParsedOptions parse_options(int argc, const char* const* argv) {
-  CLI::App app("bihive-bench: how fast rays are answered and trees are built", "bihive-bench");
+  CLI::App app("bihive-bench: times of ray queries and tree builds", "bihive-bench");
   app.footer(kExamples);
   app.get_formatter()->column_width(26);
 
@@ -89,7 +89,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   std::string peer;
   std::vector<std::string> only;
   add_input(app, options);
-  app.add_option("--peer", peer, "Measure another ray tracer beside, in turn: embree")
+  app.add_option("--peer", peer, "Measure another ray tracer in turn: embree")
       ->type_name("NAME")
       ->check(CLI::IsMember({"embree"}));
   add_integer(app, "--threads", options.threads, 1, 4096, "Threads (1)");
@@ -105,7 +105,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   add_integer(app, "--tile", options.tile, 64, 1048576,
               "Rays that a thread takes at a time, at most (131072, random rays 1048576)");
   add_integer(app, "--call", options.call, 1, 1048576,
-              "Rays of one call, as programs that have few at a time would ask (a tile's); 1: queries for one ray");
+              "Rays per call, for programs that have few at a time (a tile's); 1: queries for one ray");
   app.add_option("--target", options.target,
                  "Instruction set of both: avx512, avx2, sse4 (the best); without a peer also scalar, neon")
       ->type_name("NAME");

@@ -27,7 +27,7 @@ struct BenchOptions {
   bool json = false;
 };
 
-/// Fails with kBadUsage on unknown or wrong options. A text to be printed instead (help) comes back as a string.
+/// Fails with kBadUsage on unknown or wrong options. A text to be printed instead (help) is returned as a string.
 struct ParsedOptions {
   BenchOptions options;
   std::optional<std::string> text;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Rays a second from Python, and the memory of Spheres of a large array.
+"""Rays per second from Python, and the memory of Spheres of a large array.
 
 usage: PYTHONPATH=build-release/python bench/python_rays.py
 
@@ -33,7 +33,7 @@ for _ in range(9):
         tree.closest(*rays)
         rates[name].append(count / (time.perf_counter() - begin) / 1e6)
 for name, of_order in rates.items():
-    print(f"{name}: {statistics.median(of_order):.1f} million rays a second ({min(of_order):.1f} to {max(of_order):.1f})")
+    print(f"{name}: {statistics.median(of_order):.1f} million rays per second ({min(of_order):.1f} to {max(of_order):.1f})")
 
 
 def peak_bytes():

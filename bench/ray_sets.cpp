@@ -18,7 +18,7 @@ constexpr std::int64_t kChunk = 16384;
 constexpr std::uint64_t kSeed = 7;
 constexpr int kBlock = 8;
 
-// Rays, each with the place of its pixel on the Z-curve.
+// Rays, each with the position of its pixel on the Z-curve.
 struct PixelRaySet {
   RayBatch rays;
   std::vector<std::uint32_t> place;
@@ -81,7 +81,7 @@ RayBatch random_rays(const BenchScene& bench, std::int64_t count) {
   return rays;
 }
 
-// As far apart in each row as the rows are. They start before the box by its depth.
+// The spacing in a row equals that of rows. They start in front of the box by its depth.
 PixelRaySet comb_rays(const BenchScene& bench, int side) {
   const Vec3d size = bench.random_hi - bench.random_lo;
   PixelRaySet set;
@@ -141,10 +141,10 @@ Next next_rays(const Scene& scene, const WideTree& tree, const PixelRaySet& from
   return next;
 }
 
-// The renderer asks along 64 directions. Every eighth of them is measured here: they are as different from each other.
+// The renderer uses 64 directions. Every eighth of them is measured here, which are as varied.
 constexpr int kAmbientDirections = 64, kAmbientStep = 8;
 
-// A direction around the normal, by cosine: the normal plus a place on the unit sphere.
+// A direction around the normal, by cosine: the normal plus a point on the unit sphere.
 Vec3d direction_by_cosine(Vec3d normal, SplitMix64& random) {
   Vec3d place;
   double squared = 0;
@@ -156,8 +156,8 @@ Vec3d direction_by_cosine(Vec3d normal, SplitMix64& random) {
   return dot(sum, sum) > 1e-6 ? normalized(sum) : normal;
 }
 
-// Rays of ambient occlusion from the hits of primary rays: hit after hit along one direction after the other, which all
-// share or which each hit chooses. Half of the directions lie behind a surface, so a hit asks half as many.
+// Rays of ambient occlusion from the hits of primary rays: hit after hit along one direction after the other, shared by
+// all or chosen by each hit. Half of the directions lie behind a surface, so a hit traces half as many.
 PixelRaySet ambient_rays(const Scene& scene, const WideTree& tree, const PixelRaySet& primary,
                          std::optional<double> distance, bool shared) {
   const std::int64_t count = primary.rays.size();

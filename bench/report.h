@@ -1,4 +1,4 @@
-// Reports of the measurements, for people and for machines.
+// Reports of the measurements, as text and as JSON.
 #pragma once
 
 #include <string>

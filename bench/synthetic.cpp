@@ -25,7 +25,7 @@ struct Spheres {
   }
 };
 
-// A grid in the cube with at least `count` places, filled from the first.
+// A grid in the cube with at least `count` positions, filled from the first.
 void add_grid(Spheres& spheres, std::int64_t count, float radius) {
   std::int64_t k = 1;
   while (k * k * k < count) ++k;

@@ -1,6 +1,6 @@
 # The libraries that bihive needs. Sets BIHIVE_LIBRARY_DEPENDENCIES and BIHIVE_CLI_DEPENDENCIES.
 
-# Stops with a message that says which package to install.
+# Stops with a message that names the package to install.
 function(bihive_missing what debian_package)
   message(FATAL_ERROR "${what} was not found. On Debian or Ubuntu: apt-get install ${debian_package}, "
                       "or scripts/setup demo for everything that the program needs.")
@@ -52,7 +52,7 @@ bihive_require(hwy libhwy-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES PNG::PNG ZLIB::ZLIB fmt::fmt hwy::hwy)
 bihive_require(nlohmann_json nlohmann-json3-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
-# Headers alone: the program looks for EGL and OpenGL ES only when it needs them.
+# Headers alone: the program loads EGL and OpenGL ES only when it needs them.
 bihive_require_header(EGL/egl.h libegl-dev)
 bihive_require_header(GLES3/gl3.h libgles-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES ${CMAKE_DL_LIBS})
@@ -75,8 +75,8 @@ if(NOT BIHIVE_OPENEXR STREQUAL "OFF")
   endif()
 endif()
 
-# HDF5 files are read by libhdf5, which is looked for when a file needs it: only its header is used here, and the name
-# under which the library is found later.
+# HDF5 files are read by libhdf5, which is loaded when a file needs it: only its header is used here, and the name under
+# which the library is found later.
 set(BIHIVE_HDF5 AUTO CACHE STRING "Read HDF5: ON, OFF, or AUTO: where it is installed")
 set(BIHIVE_HAS_HDF5 OFF)
 if(NOT BIHIVE_HDF5 STREQUAL "OFF")

@@ -1,12 +1,12 @@
 # What makes faults of memory harder to use, and keeps the folders of the build out of what users get: for builds that are
 # optimised, on Linux. Sanitizers, fuzzers, WebAssembly and builds for other machines go without.
-# tests/install/hardening_test.py looks at the programs and libraries.
+# tests/install/hardening_test.py checks the programs and libraries.
 
 option(BIHIVE_HARDENING "Stack protector, checked functions of the C library, PIE and full RELRO, no folders of the build" ON)
 
 if(BIHIVE_HARDENING AND NOT EMSCRIPTEN AND NOT CMAKE_CROSSCOMPILING AND NOT BIHIVE_SANITIZE AND NOT BIHIVE_BUILD_FUZZERS
    AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
-  # Programs lie at addresses that nobody knows (PIE).
+  # Programs are loaded at random addresses (PIE).
   include(CheckPIESupported)
   check_pie_supported(LANGUAGES CXX)
   set(CMAKE_POSITION_INDEPENDENT_CODE ON)

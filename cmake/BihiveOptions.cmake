@@ -2,13 +2,13 @@
 
 include(GNUInstallDirs)
 
-# Inside another project only the library is built, and nothing installed, unless that project says otherwise.
+# Inside another project only the library is built, and nothing installed, unless that project overrides it.
 option(BIHIVE_BUILD_CLI "Build the bihive program" ${PROJECT_IS_TOP_LEVEL})
 option(BIHIVE_BUILD_C "Build the library for C (bihive.h)" ${PROJECT_IS_TOP_LEVEL})
 option(BIHIVE_INSTALL "Install the library, its headers and what else is built" ${PROJECT_IS_TOP_LEVEL})
 option(BIHIVE_BUILD_TESTS "Build the tests (needs GoogleTest)" OFF)
 option(BIHIVE_BUILD_FUZZERS "Build the fuzz targets (needs clang)" OFF)
-option(BIHIVE_FUZZ_SANITIZE "Fuzz targets with address and undefined behaviour sanitizers; without them more inputs a second" ON)
+option(BIHIVE_FUZZ_SANITIZE "Fuzz targets with address and undefined behaviour sanitizers; without them more inputs per second" ON)
 # BIHIVE_WERROR in the environment is its default, for builds that are begun by a script.
 set(BIHIVE_WERROR_DEFAULT OFF)
 if(DEFINED ENV{BIHIVE_WERROR})
@@ -24,7 +24,7 @@ option(BIHIVE_COMPILE_TOGETHER "Compile neighbouring source files together: all 
        ${BIHIVE_COMPILE_TOGETHER_DEFAULT})
 set(BIHIVE_SANITIZE "" CACHE STRING "Sanitizers: empty, asan (address and undefined behaviour) or tsan (threads)")
 set_property(CACHE BIHIVE_SANITIZE PROPERTY STRINGS "" asan tsan)
-option(BIHIVE_SANITIZE_ALL "With the address sanitizer: build tests of arithmetic, pictures and words too" ON)
+option(BIHIVE_SANITIZE_ALL "With the address sanitizer: build tests of arithmetic, pictures and texts too" ON)
 
 set(BIHIVE_MPI AUTO CACHE STRING "The program bihive-mpi: ON, OFF, or AUTO: where MPI is found")
 set_property(CACHE BIHIVE_MPI PROPERTY STRINGS AUTO ON OFF)

@@ -95,7 +95,7 @@ function(bihive_compile_together target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-# bihive_optimise_little(target): for code that reads words and writes text, most of it by templates of others (CLI11,
+# bihive_optimise_little(target): for code that parses and prints text, most of it by templates of others (CLI11,
 # Boost.Beast, JSON). Compiling it took more processor time than the kernels did, and running it takes next to none.
 function(bihive_optimise_little target)
   if(BIHIVE_SANITIZE)

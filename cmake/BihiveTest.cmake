@@ -1,8 +1,8 @@
 # The functions that declare tests. A file tests/KIND/SUBJECT_test.* is the ctest entry KIND.SUBJECT with the label KIND; the
 # C++ files of a kind are one program, KIND_tests, and an entry runs the tests of its file alone (tests/test_main.cpp).
 #
-# Properties of a test stand in its file, in lines `// ctest: ...` (Python: `# ctest: ...`), which CMake reads when it
-# is run, as scripts/test and scripts/check do:
+# Properties of a test are in its file, in lines `// ctest: ...` (Python: `# ctest: ...`), which CMake reads when it is
+# run, as scripts/test and scripts/check do:
 #   inlined          its code is compiled into whoever calls it: as users compile it, in the program inlined_tests
 #   kernel [PATTERN] also where an instruction set is emulated (tests/targets), there without the tests of this pattern
 #   threads          also with the thread sanitizer
@@ -110,7 +110,7 @@ function(add_bihive_tests kind)
   endforeach()
 endfunction()
 
-# What calls the library, whose code is optimised as ever, need not be quick itself: compiling it is what takes time.
+# What calls the library, whose code is optimised as usual, need not be fast itself: compiling it takes the time.
 function(bihive_compile_as_test target)
   target_compile_options(${target} PRIVATE -O1)
   target_precompile_headers(${target} REUSE_FROM bihive_test_support)

@@ -69,7 +69,7 @@ const auto& rows_for(const PictureRequest&) {
   return picture_options();
 }
 
-// `alone`: no other word without an option follows INPUT. `Request`: of an input, or of a picture.
+// `alone`: no other positional argument follows INPUT. `Request`: of an input, or of a picture.
 template <class Request>
 void add_input(CLI::App& app, Request& request, bool alone = true) {
   app.add_option("INPUT", input_of(request).input,
@@ -95,14 +95,14 @@ void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print one JSON object instead of text");
 }
 
-// The error of the parser, which begins with the option to blame: "--radius: expected a number, found ...".
+// The parser's error, which begins with the faulty option: "--radius: expected a number, found ...".
 void fail_with_option(const std::string& what, const std::string& advice) {
   const std::size_t end = what.starts_with("--") ? what.find_first_of(": ") : 0;
   if (end == 0 || end == std::string::npos) return;
   fail_setting(setting_of_option(what.substr(0, end)), what.substr(end), advice);
 }
 
-// A sub-command whose help ends in two examples. A call of it sets `request` to `options`.
+// A sub-command whose help ends in two examples. Calling it sets `request` to `options`.
 template <class Options>
 CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help, const std::string& first_example,
                       const std::string& second_example, const Options& options, Request& request) {
@@ -112,19 +112,19 @@ CLI::App& add_command(CLI::App& app, const std::string& name, const std::string&
   return *command;
 }
 
-// The heading of the options that are added from here on.
+// The heading of the options added after this call.
 void begin_theme(CLI::App& command, const std::string& heading) {
   command.option_defaults()->group(heading);
 }
 
-// The options that decide how a picture looks, for commands that draw one or many. `without`: ids of some.
+// The options of a picture's appearance, for commands that draw one or many. `without`: ids to leave out.
 void add_options_by_theme(CLI::App& command, RenderOptions& options, std::vector<std::string_view> without = {}) {
   static constexpr std::pair<OptionTheme, const char*> kThemes[] = {
       {OptionTheme::picture, "Picture"},       {OptionTheme::style, "Style and light"},
       {OptionTheme::camera, "Camera"},         {OptionTheme::engine, "Engine"},
       {OptionTheme::reading, "Reading"},       {OptionTheme::spheres, "Spheres"},
       {OptionTheme::labels, "Labels and cell"}};
-  without.push_back("trajectory");  // stands beside INPUT
+  without.push_back("trajectory");  // listed beside INPUT
   for (const auto& [theme, heading] : kThemes) {
     begin_theme(command, heading);
     add_picture_options(command, theme, options, /*of_window=*/false, without);
@@ -141,7 +141,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   add_path(command, "-o,--output", options.output,
            "The picture: PNG, or OpenEXR (.exr); - writes a PNG to the standard\noutput");
   add_value(command, "--layers", options.layers, "L,L...",
-            ".exr: what it holds: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
+            ".exr: its layers: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
   add_options_by_theme(command, options);
   command
       .add_option("--film", options.film,
@@ -166,12 +166,11 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
            "The film: .mp4, .mov, .mkv or .webm by the program ffmpeg; .y4m; or PNG files:\nrun/%05d.png");
   add_value(command, "--frames", options.frames, "A:B:STEP",
             "Every STEP-th frame from A to before B (all); negative: from the end", frame_range_from_text);
-  add_value(command, "--fps", options.rate, "N", "Pictures a second (25); 29.97 and 30000/1001 are too",
-            frame_rate_from);
+  add_value(command, "--fps", options.rate, "N", "Pictures per second (25), also 29.97 or 30000/1001", frame_rate_from);
   add_integer(command, "--pictures", options.pictures, 1, kUnlimited,
-              "How many pictures of an input with one frame (ten seconds, or all keys)");
+              "Number of pictures of an input with one frame (ten seconds, or all keys)");
   add_value(command, "--turntable", options.turntable_deg, "DEG",
-            "The camera goes so far around the scene while the film runs",
+            "Rotation of the camera around the scene, over the whole film",
             [](const std::string& text) { return number_from_text(text, -1e6, 1e6); });
   command.add_option("--camera-keys", options.camera_keys, "Key frames of the camera: docs/films.md")
       ->type_name("FILE");
@@ -179,7 +178,7 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
              "Ranges of --colour-by without MIN,MAX: of the first frame, of the whole film (reads\n"
              "it twice), or of each frame (first)");
   command
-      .add_option("--codec", options.codec, "ffmpeg's words for the codec (H.264, webm: VP9): '-c:v libx265 -crf 20'")
+      .add_option("--codec", options.codec, "ffmpeg's options for the codec (H.264, webm: VP9): '-c:v libx265 -crf 20'")
       ->type_name("WORDS");
   add_value(command, "--shard", options.shard, "i/N",
             "Draw every N-th picture from number i on; another command joins all N", shard_from);
@@ -194,7 +193,7 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
                   "bihive view scenario2 --engine gpu --max-prims 1 --view traversal", options, request);
   add_input<PictureRequest>(command, options);
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
-  add_choice(command, "--engine", options.window_engine, kViewerEngines, "What draws (cpu)");
+  add_choice(command, "--engine", options.window_engine, kViewerEngines, "The engine (cpu)");
   static const RequestOption<PictureRequest> samples = samples_option(kMostSamples);
   add_option_of<PictureRequest>(command, samples, options);
   for (const OptionTheme theme : {OptionTheme::style, OptionTheme::picture, OptionTheme::camera, OptionTheme::engine,
@@ -205,9 +204,8 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
 }
 
 void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
-  CLI::App& command =
-      add_command(app, "stats", "Build both trees and show what they look like in numbers", "bihive stats demo",
-                  "bihive stats scenario2 --max-prims 1 --seed 7 --json", options, request);
+  CLI::App& command = add_command(app, "stats", "Build both trees and print their statistics", "bihive stats demo",
+                                  "bihive stats scenario2 --max-prims 1 --seed 7 --json", options, request);
   add_input(command, options.input);
   add_tree_options(command, options.tree);
   add_input_options(command, options.input);
@@ -215,7 +213,7 @@ void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
 }
 
 void add_styles(CLI::App& app, StylesOptions& options, Request& request) {
-  CLI::App& command = add_command(app, "styles", "List the looks for bihive render --style", "bihive styles",
+  CLI::App& command = add_command(app, "styles", "List the styles for bihive render --style", "bihive styles",
                                   "bihive styles --json", options, request);
   add_json_flag(command, options.json);
 }
@@ -233,7 +231,7 @@ void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
   add_path(command, "--id", options.id, "Written: int64 (n), position in the set; -1 for nothing, -2 for the plane");
   command.add_flag("--any", options.any, "Whether anything is hit: id 0 or -1, t 0 or inf");
   command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
-  add_choice(command, "--engine", options.engine, kEngines, "What answers the rays (auto); all give the same bits");
+  add_choice(command, "--engine", options.engine, kEngines, "The engine (auto); all give the same bits");
   add_tree_options(command, options.tree);
   add_integer(command, "--threads", options.threads, 0, kMostThreads,
               "Threads (0: as many as the machine runs at once)");
@@ -254,16 +252,17 @@ void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
 }
 
 void add_info(CLI::App& app, InfoOptions& options, Request& request) {
-  CLI::App& command = add_command(app, "info", "Show what an input holds and how it was read", "bihive info demo",
+  CLI::App& command = add_command(app, "info", "Show the content of an input and how it was read", "bihive info demo",
                                   "bihive info scenario1 --count 1000000 --radius 0.1 --json", options, request);
   add_input(command, options.input);
   CLI::Option* attributes = command.add_flag("--attributes", options.attributes,
                                              "List what is known of each sphere: ranges and distinct texts");
-  CLI::Option* frames = command.add_flag("--frames", options.frames,
-                                         "Read all frames: how many spheres, ranges of places, cell, time, step and\n"
-                                         "numbers");
+  CLI::Option* frames =
+      command.add_flag("--frames", options.frames,
+                       "Read all frames: numbers of spheres, ranges of positions, cell, time, step and\n"
+                       "numbers");
   frames->excludes(attributes);
-  command.add_flag("--keep-index", options.keep_index, "Text: keep the places of the frames in FILE.bihive-index")
+  command.add_flag("--keep-index", options.keep_index, "Text: keep the offsets of the frames in FILE.bihive-index")
       ->needs(frames);
   add_tree_options(command, options.tree);
   add_input_options(command, options.input);
@@ -375,7 +374,8 @@ std::string version_text() {
   return "bihive " + std::string(version()) + revision;
 }
 
-// The words from the last to the first, as CLI11 wants them. It would take the word after "--title=" for the title.
+// The arguments from the last to the first, as CLI11 wants them. It would take the argument after "--title=" for the
+// title.
 std::vector<std::string> words_for_parser(int argc, const char* const* argv) {
   std::vector<std::string> words;
   bool options = true;
@@ -391,7 +391,7 @@ std::vector<std::string> words_for_parser(int argc, const char* const* argv) {
   return words;
 }
 
-// `with_film`: the words of a film stand among them.
+// `with_film`: the arguments of a film are among them.
 Request parse_words(int argc, const char* const* argv, bool with_film, const Describe& describe) {
   CLI::App app("bihive: ray tracing of spheres on a bounding interval hierarchy", "bihive");
   app.set_version_flag("--version", version_text());
@@ -433,7 +433,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   } catch (const CLI::CallForVersion&) {
     return HelpText{version_text() + "\n", true};
   } catch (const CLI::Success& asked) {
-    // The help of the sub-command for which help was asked, if any.
+    // The help of the requested sub-command, if any.
     const bool all = dynamic_cast<const CLI::CallForAllHelp*>(&asked) != nullptr;
     for (CLI::App* command : app.get_subcommands()) {
       if (!all) shorten_help(*command);
@@ -462,8 +462,8 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   return request;
 }
 
-// The options of each picture in the description of a film. They are data from a file: each must be one of a picture,
-// with a value that the command line would take, and may open no file that the user does not name here too.
+// The options of each picture in the description of a film. They are data from a file: each must be an option of a
+// picture, with a value that the command line would accept, and may open no file that the user does not name here too.
 std::vector<std::string> words_of_film(const std::string& path, int argc, const char* const* argv) {
   const FilmPlan plan = read_film_plan(path);
   const auto refuse = [&](const std::string& what, const std::string& hint) {
@@ -482,7 +482,7 @@ std::vector<std::string> words_of_film(const std::string& path, int argc, const 
       refuse("contain " + given.words.front() + ", which is not an option of a picture",
              "take the description that bihive film wrote");
     if (names_file(given)) {
-      // The user's own word stands on the command line already.
+      // The user's own argument is on the command line already.
       const bool is_named = std::any_of(given_here.begin(), given_here.end(), [&](const GivenOption& here) {
         return here.option == given.option && here.value == given.value;
       });
@@ -493,7 +493,7 @@ std::vector<std::string> words_of_film(const std::string& path, int argc, const 
     words.insert(words.end(), given.words.begin(), given.words.end());
   }
 
-  // Their values, before the user's own words come to them.
+  // Their values, before the user's own arguments are added.
   std::vector<const char*> alone{argv[0], "film", "-o", "x.y4m", "demo"};
   for (const std::string& word : words) alone.push_back(word.c_str());
   try {

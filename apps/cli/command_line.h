@@ -1,4 +1,4 @@
-// The command line. Only this file knows its words, and it alone spends seconds on compiling CLI11.
+// The command line. Only its source knows the options, and it alone spends seconds on compiling CLI11.
 #pragma once
 
 #include <functional>
@@ -26,8 +26,8 @@ using Request =
 /// The text of `bihive describe WORDS...`, from the description of the command line (words/read_program_words.h).
 using Describe = std::function<std::string(const CLI::App& app, const std::vector<std::string>& words)>;
 
-/// Fails with kBadUsage on any word that is unknown, missing, repeated or out of range. Without `describe` there is no
-/// such command: only the program knows the words of all experiments.
+/// Fails with kBadUsage on any argument that is unknown, missing, repeated or out of range. Without `describe` there is
+/// no such command: only the program knows the names of all experiments.
 Request parse_command_line(int argc, const char* const* argv, const Describe& describe = {});
 
 }  // namespace bihive::cli

@@ -59,15 +59,15 @@ void prepare() {
 // Before the shared libraries make their variables, some of which need memory.
 __attribute__((section(".preinit_array"), used)) void (*const kFirst)() = prepare;
 
-// A stream that the caller has closed leaves its number to the next file that is opened, and messages would go into
-// that. The file in its place refuses writing, as a closed stream does; stderr drops it.
+// If the caller has closed a stream, the next opened file would get its number, and messages would go into that. The
+// file that replaces it refuses writing, as a closed stream does; stderr drops it.
 void fill_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
 }
 
-// Where a control group limits the memory, allocations fail before the kernel kills the program. Servers and windows
-// live long beside others that come and go, and refuse by what is predicted alone.
+// With a control group that limits memory, allocations fail before the kernel kills the program. Servers and windows
+// live long beside other processes, and refuse by predictions alone.
 void keep_within_control_group(const Request& request) {
   if (std::holds_alternative<WebOptions>(request) || std::holds_alternative<ViewOptions>(request) ||
       std::holds_alternative<ThesisOptions>(request) || std::holds_alternative<HelpText>(request))
@@ -75,7 +75,7 @@ void keep_within_control_group(const Request& request) {
   const auto* const film = std::get_if<FilmOptions>(&request);
   // ffmpeg would inherit the limit, which is not its own.
   if (film != nullptr && (film->join || film_kind(film->picture.output) == FilmKind::encoded)) return;
-  // Stacks of threads are reserved, but hardly used: make the threads first. A film has some of its own.
+  // Stacks of threads are reserved, but hardly used: create the threads first. A film has some of its own.
   constexpr double kStack = 8 << 20, kOwnThreadsOfFilm = 4;
   const double of_film = film != nullptr ? kOwnThreadsOfFilm * kStack : 0;
   const int threads = hardware_threads();
@@ -115,7 +115,7 @@ int run(int argc, const char* const* argv) {
 }  // namespace bihive::cli
 
 int main(int argc, char** argv) {
-  // Saying what is wrong may need memory too.
+  // Reporting an error may need memory too.
   try {
     return bihive::cli::run(argc, argv);
   } catch (const std::exception&) {

@@ -8,7 +8,7 @@
 namespace bihive::cli {
 namespace {
 
-// The request keeps which settings of a picture were given.
+// The request records which settings of a picture were given.
 void note(PictureRequest& request, const std::string& id) {
   request.given.push_back(id);
 }
@@ -44,7 +44,7 @@ void add_option_of(CLI::App& app, const RequestOption<Request>& row, Request& re
                 },
                 help)
           : app.add_option_function<std::string>(other_names + name, take, help)->type_name(row.value_name);
-  // Repeatable options are taken when the command line reaches them: their order matters.
+  // Repeatable options are applied in the order of the command line.
   if (row.repeatable) option->trigger_on_parse();
   exclude_others(app, row.id, row.excludes);
 }

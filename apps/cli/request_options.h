@@ -13,7 +13,7 @@ class App;
 
 namespace bihive::cli {
 
-/// Adds the option of a row, whose values go to `request`. `other_names`: before its own, each with a comma.
+/// Adds the option of a row, whose values go to `request`. `other_names`: precede its own, each with a comma.
 template <class Request>
 void add_option_of(CLI::App& app, const RequestOption<Request>& row, Request& request,
                    const std::string& other_names = "");
@@ -25,7 +25,7 @@ void add_picture_options(CLI::App& app, OptionTheme theme, PictureRequest& reque
 /// The setting of an input with that id.
 void add_input_option(CLI::App& app, std::string_view id, InputOptions& input, const std::string& other_names = "");
 
-/// A text of --help in lines of at most 84 characters.
+/// Wraps a text of --help at 84 characters.
 std::string in_lines(std::string text);
 
 }  // namespace bihive::cli

@@ -44,7 +44,7 @@ constexpr const char* kHelp =
     "joins them. Without --threads the ranks of a machine share its cores, or keep to those that mpirun gives them.\n"
     "\n"
     "--distribute: each sphere lies on one rank, for sets beyond the memory of a machine. For render alone. Each rank\n"
-    "reads its part of an NPY, GSD or H5MD file or of a LAMMPS dump; other files are read by rank 0.\n"
+    "reads its chunk of an NPY, GSD or H5MD file or of a LAMMPS dump; other files are read by rank 0.\n"
     "\n"
     "A rank that has been silent for 30 s ends all. BIHIVE_MPI_PATIENCE=SECONDS in the environment changes that, 0: "
     "never.\n"
@@ -75,7 +75,7 @@ std::uint64_t hash_of(const std::vector<std::string>& texts) {
   return hash;
 }
 
-// All ranks must be the same program with the same arguments: also those that only ask for help.
+// All ranks must be the same program with the same arguments, even to print help.
 void agree_on_arguments(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
   ranks.agree({{"the program", hash_of({std::string(version()), std::string(commit())})},
                {"the command line", hash_of({arguments.begin() + 1, arguments.end()})}});
@@ -117,7 +117,7 @@ bool is_distribute(const char* argument) {
   return std::string(argument) == kDistribute;
 }
 
-// Why this rank fails; nothing: it does not.
+// The reason why this rank fails, if it does.
 struct Said {
   int code = kSuccess;
   std::string text, shown;
@@ -129,7 +129,7 @@ Said run(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
     name_settings_as_options();
     agree_on_arguments(ranks, arguments);
     if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
-    // The program's own option is none of bihive's.
+    // The program's own option is not one of bihive's.
     std::vector<const char*> others = arguments;
     std::erase_if(others, is_distribute);
     const std::string first = others.size() > 1 ? others[1] : "";
@@ -146,7 +146,7 @@ Said run(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
   } catch (const cli::OtherRankFailed& other) {
     return {other.code, "", ""};
   } catch (const std::exception& error) {
-    // It may have come in the middle of a picture, where the other ranks wait for this one: MPI ends them.
+    // It may have occurred within a picture, while the other ranks wait for this one: MPI ends them.
     const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
     say_error(is_memory ? kNoMemory : error.what());
     MPI_Abort(MPI_COMM_WORLD, kBadInput);
@@ -154,7 +154,7 @@ Said run(MpiCommunicator& ranks, const std::vector<const char*>& arguments) {
   }
 }
 
-// All ranks end with the same code, and one of them says why.
+// All ranks end with the same code, and one of them reports why.
 int run_ranks(const std::vector<const char*>& arguments) {
   const bool distributes = std::any_of(arguments.begin(), arguments.end(), is_distribute);
   MpiCommunicator ranks(MPI_COMM_WORLD, distributes, MpiCommunicator::Counting::shared);
@@ -192,12 +192,12 @@ int main(int argc, char** argv) {
   using namespace bihive;  // NOLINT(google-build-using-namespace): of this function alone
   const std::optional<int> patience_s = mpi::patience_from_environment();
   if (!patience_s) {
-    say_error("BIHIVE_MPI_PATIENCE must be seconds, or 0 to wait for ever");
+    say_error("BIHIVE_MPI_PATIENCE must be seconds, or 0 to wait forever");
     return kBadUsage;
   }
   int provided = 0;
   {
-    // Programs come to large machines slowly.
+    // Programs start slowly on large machines.
     const mpi::WaitLimit limit(*patience_s * 3 / 2, "started this program");
     MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);
   }
@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
   if (provided < MPI_THREAD_SERIALIZED) {
     say_error("this MPI takes calls from the main thread alone");
   } else {
-    // Another MPI leaves nobody to watch.
+    // With another MPI there is nobody to watch.
     const mpi::RankWatch watch(provided < MPI_THREAD_MULTIPLE ? 0 : *patience_s);
     code = mpi::run_ranks({argv, argv + argc});
   }

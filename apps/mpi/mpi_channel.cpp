@@ -12,13 +12,13 @@
 namespace bihive::mpi {
 namespace {
 
-// The messenger looks so often whether something has arrived, when it has nothing to send.
+// Interval at which the idle messenger checks for arrivals.
 constexpr std::chrono::microseconds kPause{30};
 
-// A thread that waits looks so often whether a signal came.
+// Interval at which a waiting thread checks for signals.
 constexpr std::chrono::milliseconds kPatience{50};
 
-// Tiles of a rank that are on their way, for each of its threads that draw.
+// Tiles of a rank in flight, per drawing thread.
 constexpr int kTilesOfThread = 4;
 
 }  // namespace
@@ -132,7 +132,7 @@ cli::WorkOfRank MpiChannel::work_of_others() const {
   return work_of_others_;
 }
 
-// Rank 0 knows when all threads that draw have ended, on all ranks: then nobody asks any more.
+// Rank 0 knows when all drawing threads have ended, on all ranks: then no more questions come.
 void MpiChannel::end() {
   if (rank_ == 0) {
     // All at once: the messenger leaves after its own.
@@ -154,7 +154,7 @@ void MpiChannel::run() {
   leave();
 }
 
-// Whether there was something to do.
+// Returns whether there was something to do.
 bool MpiChannel::send_all() {
   std::deque<Message> messages;
   {
@@ -192,7 +192,7 @@ bool MpiChannel::send_all() {
   return !messages.empty();
 }
 
-// Whether there was one.
+// Returns whether there was one.
 bool MpiChannel::receive_one() {
   int there = 0;
   MPI_Status status;
@@ -218,7 +218,7 @@ void MpiChannel::take_message(Message message) {
       return;
     case kAnswer: {
       const auto found = waiting_.find(message.number);
-      if (found == waiting_.end()) return;  // whoever asked was stopped
+      if (found == waiting_.end()) return;  // the asking thread was stopped
       Waiter& waiter = *found->second.first;
       waiter.answers[found->second.second] = std::move(message.bytes);
       waiting_.erase(found);
@@ -263,14 +263,14 @@ void MpiChannel::answer_questions() {
     try {
       send({question.rank, kAnswer, question.number, answer_(question.bytes)});
     } catch (const std::exception& error) {
-      // Somebody waits for the answer: MPI ends all ranks.
+      // Another rank waits for the answer: MPI ends all ranks.
       say_error(error.what());
       MPI_Abort(MPI_COMM_WORLD, kBadInput);
     }
   }
 }
 
-// Answers what is left, and goes on receiving until all ranks have sent what they had to send.
+// Answers the remaining questions, and receives until all ranks have sent everything.
 void MpiChannel::leave() {
   {
     const std::lock_guard lock(mutex_);

@@ -1,8 +1,8 @@
 // A channel between the ranks of MPI (support/communicator.h).
 //
-// One thread of each rank does all that has to do with MPI meanwhile: it sends what other threads have left in a list,
-// and hands what arrives to those who wait for it. So nobody who computes keeps messages waiting, and no rank waits for
-// another one to listen.
+// One thread of each rank makes all MPI calls meanwhile: it sends what other threads have queued, and passes what
+// arrives to those who wait for it. So computing threads never delay messages, and no rank waits for another one to
+// listen.
 #pragma once
 
 #include <mpi.h>
@@ -25,7 +25,7 @@ namespace bihive::mpi {
 
 class MpiChannel final : public cli::TileChannel {
  public:
-  /// For all ranks at the same time.
+  /// Collective.
   MpiChannel(MPI_Comm comm, std::function<Bytes(const Bytes&)> answer, int threads);
   ~MpiChannel() override;
   MpiChannel(const MpiChannel&) = delete;
@@ -60,7 +60,7 @@ class MpiChannel final : public cli::TileChannel {
     MPI_Request request = MPI_REQUEST_NULL;
     bool is_tile;
   };
-  // Somebody who waits for answers.
+  // A thread that waits for answers.
   struct Waiter {
     std::vector<Bytes> answers;
     std::size_t missing;
@@ -69,13 +69,13 @@ class MpiChannel final : public cli::TileChannel {
 
   void send(Message message);
   std::vector<Bytes> send_and_wait(std::vector<Message> messages);
-  // Of the thread that does MPI.
+  // For the MPI thread.
   void run();
   bool send_all();
   bool receive_one();
   void take_message(Message message);
   void leave();
-  // Of the threads that answer.
+  // For the answering threads.
   void answer_questions();
 
   int rank_ = 0, size_ = 1;

@@ -13,10 +13,10 @@ namespace {
 
 enum Tag : int { kTile = 1, kEnd, kScattered, kAskNumber, kNumber };
 
-// No message is longer, because MPI counts bytes with 31 bits.
+// Maximum message length, because MPI counts bytes with 31 bits.
 constexpr std::size_t kLongestMessage = std::size_t{1} << 29;
 
-// Calls use(bytes, count) for each message in which so many bytes go.
+// Calls use(bytes, count) for each message that sends a piece of these bytes.
 template <class Use>
 void for_each_message(char* bytes, std::size_t count, const Use& use) {
   for (std::size_t first = 0; first < count; first += kLongestMessage)
@@ -45,7 +45,7 @@ std::unique_ptr<cli::PictureCommunicator> MpiCommunicator::split(int colour) {
   go_on_if_all_do();
   MPI_Comm part = MPI_COMM_NULL;
   MPI_Comm_split(comm_, colour, rank_, &part);
-  // Open MPI 4.1.4 gives the windows of several such parts of one machine the same file in shared memory.
+  // Open MPI 4.1.4 gives the windows of several such subsets on one machine the same file in shared memory.
   auto ranks = std::make_unique<MpiCommunicator>(part, distributes_, Counting::by_messages);
   MPI_Comm_free(&part);
   return ranks;
@@ -65,11 +65,11 @@ int MpiCommunicator::share(int code) {
 }
 
 int MpiCommunicator::end_with(int code) {
-  // After a failure everybody knows already.
+  // After a failure all ranks know already.
   return code_ != 0 ? code_ : share(code);
 }
 
-// A rank that has failed says so in place of what all do together.
+// A failed rank reports it instead of taking part in the collective call.
 void MpiCommunicator::go_on_if_all_do() {
   if (const int code = share(0); code != 0) throw cli::OtherRankFailed{code};
 }
@@ -93,7 +93,7 @@ void MpiCommunicator::agree(const std::vector<cli::Fingerprint>& seen) {
   if (code == 0) return;
   if (differs.empty()) throw cli::OtherRankFailed{code};
   fail({differs + " of rank " + std::to_string(rank_) + " is not that of rank 0", "", 0, 0,
-        "give all ranks the same program and the same words"});
+        "give all ranks the same program and the same arguments"});
 }
 
 void MpiCommunicator::begin_picture() {
@@ -111,7 +111,7 @@ std::int64_t MpiCommunicator::next_number() {
   return counter_->is_shared() || rank_ == 0 ? counter_->add(1) : asked_number();
 }
 
-// Rank 0 answers when it looks for messages, so ranks ask for a number while they work on the one before.
+// Rank 0 answers when it checks for messages, so ranks request a number while they work on the previous one.
 void MpiCommunicator::ask_for_number() {
   MPI_Irecv(&number_, 1, MPI_INT64_T, 0, kNumber, comm_, &number_request_);
   MPI_Send(nullptr, 0, MPI_BYTE, 0, kAskNumber, comm_);
@@ -151,7 +151,7 @@ void MpiCommunicator::end_giving(const cli::WorkOfRank& work, bool failed) {
   MPI_Send(end.data(), static_cast<int>(end.size()), MPI_BYTE, 0, kEnd, comm_);
 }
 
-// Begins to receive a message, and takes what is here. Returns whether one had come. `wait`: for something.
+// Starts to receive a message, and takes what has arrived. Returns whether one had. `wait`: blocks until then.
 bool MpiCommunicator::receive_one(bool wait) {
   int there = 1;
   MPI_Status status;
@@ -179,7 +179,7 @@ bool MpiCommunicator::receive_one(bool wait) {
   return there != 0;
 }
 
-// Of many ranks many messages come while this one draws a tile.
+// From many ranks many messages arrive while this one draws a tile.
 void MpiCommunicator::receive_all() {
   while (receive_one(/*wait=*/false)) {
   }

@@ -1,4 +1,4 @@
-// The communicator of an MPI program. Only this folder knows MPI.
+// The communicator of an MPI program. Only this folder uses MPI.
 #pragma once
 
 #include <mpi.h>
@@ -16,13 +16,13 @@
 
 namespace bihive::mpi {
 
-/// All ranks of the communicator make one at the same time, after MPI_Init_thread with MPI_THREAD_SERIALIZED or more,
-/// and destroy it before MPI_Finalize.
+/// Collective: made by all ranks of the communicator, after MPI_Init_thread with MPI_THREAD_SERIALIZED or more, and
+/// destroy it before MPI_Finalize.
 class MpiCommunicator final : public cli::PictureCommunicator {
  public:
   enum class Counting { shared, by_messages };
-  /// Has a copy of the communicator. `distributes`: the spheres are distributed over the ranks. `counting`: numbers go
-  /// by messages also where no counter can be shared.
+  /// Copies the communicator. `distributes`: the spheres are distributed over the ranks. `counting`: numbers are sent
+  /// by messages if no counter can be shared.
   MpiCommunicator(MPI_Comm comm, bool distributes, Counting counting);
   ~MpiCommunicator() override;
   MpiCommunicator(const MpiCommunicator&) = delete;
@@ -54,7 +54,7 @@ class MpiCommunicator final : public cli::PictureCommunicator {
   cli::WorkOfRank work_of_others() const override { return work_of_others_; }
 
   int end_with(int code) override;
-  /// After end_with(): whether this rank is the one to say why.
+  /// After end_with(): whether this rank reports the reason.
   bool speaks() const { return speaks_; }
 
  private:
@@ -72,12 +72,12 @@ class MpiCommunicator final : public cli::PictureCommunicator {
   std::mutex mutex_;  // MPI takes one thread at a time
   std::unique_ptr<SharedCounter> counter_;
 
-  // If the counter is not shared: an answer of rank 0 that is on its way.
+  // If the counter is not shared: an answer of rank 0 in flight.
   bool awaits_number_ = false;
   std::int64_t number_ = 0;
   MPI_Request number_request_ = MPI_REQUEST_NULL;
 
-  // On their way from this rank: the bytes must stay.
+  // In flight from this rank: the bytes must stay.
   struct Sending {
     std::vector<char> bytes;
     MPI_Request request = MPI_REQUEST_NULL;
@@ -85,7 +85,7 @@ class MpiCommunicator final : public cli::PictureCommunicator {
   Sending sending_[2];
   int next_sending_ = 0;
 
-  // On their way to this rank. A rank that draws lets its messages move on only now and then, so nobody waits for one.
+  // In flight to this rank. A drawing rank makes progress on messages only now and then, so nobody waits for one.
   struct Receiving {
     int source, tag;
     std::vector<char> bytes;

@@ -1,4 +1,4 @@
-// How long a rank waits for ranks that may never come.
+// Time limits for ranks that may never answer.
 #pragma once
 
 #include <condition_variable>
@@ -9,17 +9,18 @@
 
 namespace bihive::mpi {
 
-/// Seconds of silence after which a rank gives up the others; 0: it waits for ever. From BIHIVE_MPI_PATIENCE, else 30.
-/// Nothing: the variable holds something else.
+/// Seconds of silence after which a rank gives up the others; 0: it waits forever. From BIHIVE_MPI_PATIENCE, else 30.
+/// Nothing: the variable is malformed.
 std::optional<int> patience_from_environment();
-/// What an error about a lack of patience ends with.
-inline constexpr const char* kMorePatience = "BIHIVE_MPI_PATIENCE=SECONDS waits longer, 0 for ever";
+/// The end of an error message about a time limit.
+inline constexpr const char* kMorePatience = "BIHIVE_MPI_PATIENCE=SECONDS waits longer, 0 forever";
 
-/// Says the error in one line, removes unfinished files, and ends this process. After MPI_Init, mpirun ends the others.
+/// Prints the error in one line, removes unfinished files, and ends this process. After MPI_Init, mpirun ends the
+/// others.
 [[noreturn]] void give_up(const std::string& error);
 
-/// A thread that calls tick() once per second until it is told to end. Time counts in ticks, so that a process which
-/// was itself stopped for a while (Ctrl-Z, a suspended job) has seen none of it.
+/// A thread that calls tick() once per second until it is told to end. Time is counted in ticks, so that a process that
+/// was itself stopped for a while (Ctrl-Z, a suspended job) does not count that time.
 class Ticks {
  public:
   /// True: a second has passed. False: end() was called.
@@ -32,8 +33,8 @@ class Ticks {
   bool ended_ = false;
 };
 
-/// Gives up if it lives for more than this many seconds (0: never): for calls that come back when all ranks have made
-/// them, such as MPI_Init and MPI_Finalize. `missing`: what the other ranks have not done.
+/// Gives up if it exists for more than this many seconds (0: never): for collective calls such as MPI_Init and
+/// MPI_Finalize. `missing`: what the other ranks have not done.
 class WaitLimit {
  public:
   WaitLimit(int patience_s, const char* missing);

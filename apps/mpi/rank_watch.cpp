@@ -44,7 +44,7 @@ void RankWatch::run() {
   take_leave();
 }
 
-// A beat that the next rank has not taken yet is not sent twice.
+// No second beat is sent while the next rank has not taken the first.
 void RankWatch::beat(char sign) {
   int arrived = 0;
   MPI_Test(&sending_, &arrived, MPI_STATUS_IGNORE);
@@ -68,7 +68,7 @@ void RankWatch::listen() {
   }
 }
 
-// The next rank learns that no more beats come. The one before may still work, as long as it is not silent.
+// Tell the next rank that no more beats come. The previous one may still work, as long as it is not silent.
 void RankWatch::take_leave() {
   bool said = false;
   for (int pauses = 1;; ++pauses) {

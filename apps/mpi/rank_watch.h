@@ -1,6 +1,6 @@
 // A rank that was stopped, hangs in the system or runs another program sends nothing, and the others would wait for it
-// for ever. So each rank sends a beat per second to the next one, in a ring, and listens to the one before it. Beats
-// come from a thread of their own, so that a rank that works for long still sends them.
+// forever. So each rank sends a beat per second to the next one, in a ring, and listens to the previous one. Beats are
+// sent by a separate thread, so that a rank that works for long still sends them.
 #pragma once
 
 #include <mpi.h>
@@ -13,17 +13,17 @@ namespace bihive::mpi {
 
 class RankWatch {
  public:
-  /// Begins: for all ranks of MPI_COMM_WORLD, after MPI_Init_thread with MPI_THREAD_MULTIPLE, before they exchange
+  /// Collective: for all ranks of MPI_COMM_WORLD, after MPI_Init_thread with MPI_THREAD_MULTIPLE, before they exchange
   /// anything else. `patience_s`: a rank that has been silent for this time makes the next one end all by MPI_Abort; 0
   /// (or a single rank): nobody watches.
   explicit RankWatch(int patience_s);
-  /// All ranks come here; it comes back when the rank before has.
+  /// Collective; returns when the previous rank has called it.
   ~RankWatch();
   RankWatch(const RankWatch&) = delete;
   RankWatch& operator=(const RankWatch&) = delete;
 
  private:
-  // Of the thread.
+  // For the thread.
   void run();
   void beat(char sign);
   void listen();

@@ -7,7 +7,7 @@ SharedCounter::SharedCounter(MPI_Comm comm, bool shared) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   std::int64_t* value = nullptr;
-  // If MPI has no way, that is an error of the communicator, which must not end the program.
+  // If MPI cannot do this, it is an error of the communicator, which must not end the program.
   MPI_Errhandler before = MPI_ERRHANDLER_NULL;
   MPI_Comm_get_errhandler(comm, &before);
   MPI_Comm_set_errhandler(comm, MPI_ERRORS_RETURN);

@@ -26,7 +26,7 @@ void prepare_end() {
   if (g_before_end != nullptr) g_before_end();
 }
 
-// An exception that nobody catches, for example on a thread: one line, no unfinished file, no core.
+// An uncaught exception, for example on a thread: one line, no unfinished file, no core.
 [[noreturn]] void end_after_exception() {
   prepare_end();
   try {
@@ -42,9 +42,9 @@ void prepare_end() {
   _exit(kExitCode);
 }
 
-// Called when `new` finds no memory. It is asked once more, because another thread may have given some back. If there
-// is none for small things either, the program ends here: many libraries lose their order when that happens in them. A
-// single large wish is refused by an exception.
+// Called when `new` finds no memory. It retries once, because another thread may have freed some. If even small
+// allocations fail, the program ends here: many libraries cannot handle that. A single large request is refused by an
+// exception.
 void on_no_memory() {
   constexpr std::size_t kSmall = 1 << 16;
   thread_local bool asked_again = false;
@@ -64,12 +64,12 @@ void on_no_memory() {
 void say_without_memory(const char* text) {
   static std::atomic_flag said = ATOMIC_FLAG_INIT;
   while (said.test_and_set()) pause();
-  // Other threads may break in the last moment: in libraries that do not look whether there was memory.
+  // Other threads may crash in the last moment, in libraries that do not check their allocations.
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS})
     std::signal(signal, [](int) {
       while (true) pause();
     });
-  // One write, so that nothing of another program comes between.
+  // One write, so that no other program's output is interleaved.
   char line[512];
   const char* const wipe = isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "";
   const int length = std::snprintf(line, sizeof(line), "%sbihive: error: %.400s\n", wipe, text);
@@ -87,7 +87,7 @@ void name_limit_of_memory(const char* text) {
   std::snprintf(g_no_memory, sizeof(g_no_memory), "%s", text);
 }
 
-// With a limit of address space the C library must not reserve 64 MB of it for each thread.
+// With a limit of address space the C library must not reserve 64 MB of it per thread.
 void end_in_one_line(void (*before_end)()) {
   g_before_end = before_end;
   std::set_terminate(end_after_exception);

@@ -1,4 +1,4 @@
-// The machine's processor, for people.
+// The name of the machine's processor.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace bihive {
 
-/// As the system names it; "unknown processor" where it does not.
+/// As the system names it; "unknown processor" if it does not.
 inline std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)

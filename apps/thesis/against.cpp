@@ -1,4 +1,4 @@
-// A run beside an older one.
+// Compares a run with an older one.
 #include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
 #include "report.h"
@@ -6,7 +6,7 @@
 namespace bihive::thesis {
 namespace {
 
-// An array at this key; nlohmann's own loops would take a number as a list of one, and null as an empty one.
+// An array at this key; nlohmann's own loops would treat a number as a list of one, and null as an empty one.
 const Json& list_at(const Json& object, const char* key) {
   const Json& list = object.at(key);
   if (!list.is_array()) throw Json::type_error::create(302, std::string(key) + " must be an array", &object);

@@ -15,7 +15,7 @@
 namespace bihive::thesis {
 namespace {
 
-// A claim with more findings than these shows how many hold.
+// A claim with more findings than this shows how many hold.
 constexpr std::size_t kListed = 4;
 
 // Verdicts, from the best to the worst.
@@ -86,8 +86,8 @@ const char* extreme(const Json& map, const std::string& stated, bool highest) {
     if (key == stated) continue;
     const Measured other = *measured(value);
     const bool ahead = highest ? mine.low > other.high : mine.high < other.low;
-    const bool behind = highest ? mine.high <= other.low : mine.low >= other.high;
-    if (behind) return kDiffers;
+    const bool beyond = highest ? mine.high <= other.low : mine.low >= other.high;
+    if (beyond) return kDiffers;
     if (!ahead) verdict = kUndecided;
   }
   return verdict;
@@ -122,7 +122,7 @@ double print_rounding(const std::string& printed) {
 bool inside_three_sd(double stated, const std::string& printed, double mean, double sd) {
   const double rounding = print_rounding(printed);
   if (rounding == 0.5 && sd == 0) return stated == mean;
-  // Slightly more than the rounding itself, because 0.005 is no binary number.
+  // Slightly more than the rounding itself, because 0.005 is not a binary number.
   return std::abs(stated - mean) <= 3 * sd + rounding * (1 + 1e-9);
 }
 

@@ -47,7 +47,7 @@ Json gains_of(const std::vector<std::pair<double, Contestant>>& gains) {
 
 Json quantities_at(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs, const Values& values) {
   Json found = Json::object();
-  std::vector<Contestant> best, all;  // of each configuration; of all but trees of one leaf
+  std::vector<Contestant> best, all;  // per configuration; all except trees of one leaf
   std::vector<double> over_brute, one_leaf_over_brute;
   std::map<std::int64_t, std::vector<std::pair<double, Contestant>>> gains;  // by scenario, with the tree
   for (const auto& [configuration, trees] : work) {

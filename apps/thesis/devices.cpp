@@ -46,7 +46,7 @@ Json run_from(const Json& document, const Values& values) {
     by_scenario.push_back(
         {{"scenario", scenario}, {"least", *least}, {"most", *most}, {"mean", spread_of(percents).mean}});
   }
-  // The share of the text's picture that this one has.
+  // The size of the picture relative to the text's.
   const double scale = static_cast<double>(saved->width_px) * saved->height_px /
                        (values.number("width_px") * values.number("height_px"));
   Json run = {{"device", document.at("device").get<std::string>()},

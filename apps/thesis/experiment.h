@@ -1,6 +1,6 @@
 // An experiment of the thesis: steps that measure or draw, and the numbers that follow from them.
 //
-// Claims (claims.h) and the report's templates (report.h) read nothing but an experiment's data.
+// Claims (claims.h) and the report's templates (report.h) read only an experiment's data.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Settings {
   std::vector<double> costs = {};
 };
 
-/// `run` returns the step's result; after a cancellation anything. Names are file names ("scenario1-max_prims8").
+/// `run` returns the step's result; anything after cancellation. Names are file names ("scenario1-max_prims8").
 /// `weight` is the step's time relative to the other steps of the whole run, about in seconds.
 struct Step {
   std::string name;
@@ -36,7 +36,7 @@ struct Step {
   std::function<Json()> run;
 };
 
-/// An experiment in a run. It stays where it is: its steps refer to it.
+/// An experiment in a run. Not movable: its steps refer to it.
 struct Experiment {
   // A row of bihive/thesis/experiments.h.
   std::string id;         ///< "table-4.2": its name on the command line and its folder in thesis/ and in the output
@@ -51,10 +51,11 @@ struct Experiment {
 
   /// Filled by the experiment's own function.
   std::vector<Step> steps = {};
-  /// Gives an object. Works with any subset of the results, and leaves out what follows from missing ones.
+  /// Gives an object. Works with any subset of the results, and omits what depends on missing ones.
   std::function<Json()> make_data = {};
 
-  bool asked = true;                         ///< on the command line; else it is shown as an earlier run left it
+  bool asked = true;                         ///< requested on the command line; else shown with an earlier run's
+                                             ///< results
   std::map<std::string, Json> results = {};  ///< of all finished steps, by name
   MachineLoad load = {};                     ///< of these steps
   Json data = Json::object();                ///< made of the results

@@ -1,5 +1,5 @@
-// Figure 4.4: at which costs of inner nodes, leaves and sphere tests do the text's claims hold, and what do they cost
-// here? The work of the rays is counted without a clock; clocks give costs, and costs are points in a diagram.
+// Figure 4.4: the costs of inner nodes, leaves and sphere tests at which the text's claims hold, and the costs here.
+// The work of the rays is counted; clocks give costs, and costs are points in a diagram.
 #include "bihive/thesis/frame_rates.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ constexpr int kQuickStride = 4, kOtherStride = 4, kQuickOtherStride = 8;
 constexpr std::uint64_t kSeeds = 60, kQuickSeeds = 5;
 // Rows of the table: a leaf in inner nodes.
 constexpr double kLeafCosts[] = {0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 1};
-// Costs of an inner node at which the claims are tried, across the range in which the pattern holds.
+// Costs of an inner node at which the claims are tested, across the range in which the pattern holds.
 constexpr int kTries = 41;
 
 std::string counts_step(std::int64_t scenario) {
@@ -152,7 +152,7 @@ class FigureData {
     const double ns_per_ms = 1e6 / pixels * (std::string(program.key) == "reference" ? threads : 1);
     const FittedCosts fitted = fit_costs(work_, times, ns_per_ms);
     if (fitted.frames == 0) return;
-    // Software that takes the place of a graphics processor is none.
+    // Software that emulates a GPU is not one.
     const std::string gpu = last.value("gpu", "");
     const bool software = is_software(gpu);
     const std::string name = program.name + std::string(software ? " in software, no graphics processor" : "");
@@ -293,7 +293,7 @@ class FigureData {
                                 {"programs", std::move(programs)}, {"rows", std::move(rows)}};
   }
 
-  // Brute force in the scenarios and with all spheres at one place: the slowest over the fastest.
+  // Brute force in the scenarios and with all spheres at one position: the slowest over the fastest.
   void add_brute_force(const Json& result) {
     double most = 0, most_with_one_place = 0;
     for (const Json& times : result) {
@@ -318,7 +318,7 @@ class FigureData {
         data_[name]["spheres" + row["spheres"].dump()][row["scenario"].dump()] = row[of];
   }
 
-  // What the lost bars must have been, by arithmetic on the text's own numbers.
+  // The values of the lost bars, by arithmetic on the text's own numbers.
   void add_lost_bars() {
     const auto number = [this](const char* name) { return values_.number(name); };
     const double most = number("scenario2.gain_percent.best"), least = number("scenario2.gain_percent.least");

@@ -15,8 +15,8 @@
 namespace bihive::thesis {
 namespace {
 
-// Pictures have a part of the width and height: the time of a ray does not depend on how many there are. On a graphics
-// processor it does, so its frames are whole in a full run.
+// Pictures have a fraction of the width and height: the time of a ray does not depend on their number. On a GPU it
+// does, so its frames are whole in a full run.
 constexpr int kDivisor = 2, kQuickDivisor = 4, kQuickReferenceDivisor = 6;
 
 // Rounds that count.
@@ -101,7 +101,7 @@ Json measure_shader(const Experiment& experiment, std::int64_t scenario, std::in
   if (!renderer) return {{"missing", renderer.error().message}};
   const FrameRatePlan plan = plan_of(experiment, is_software(renderer->description()) ? kDivisor : 1, kQuickDivisor);
   Json result = measure_frames(experiment, plan, scenario, spheres, &*renderer);
-  // The cost of a frame whatever is in it: one sphere, and no tree.
+  // The fixed cost of a frame: one sphere, and no tree.
   const Json almost_empty = measure_frames(experiment, plan, scenario, 1, &*renderer);
   if (result.is_null() || almost_empty.is_null()) return {};
   result["one_sphere_ms"] = almost_empty["frame_ms"]["brute"];

@@ -17,11 +17,11 @@ struct TimedProgram {
 };
 const std::vector<TimedProgram>& timed_programs();
 
-/// Whether this description of a graphics processor is that of software in its place.
+/// Whether this description of a GPU is that of software emulation.
 bool is_software(const std::string& gpu);
 
 /// {"spheres64": {"scenario1": ms, "scenario2": ms, "scenario3": ms, "one_place": ms}}: the thesis program's shortest
-/// time for a frame by brute force, in the scenarios and with all spheres at one place, in turns.
+/// time for a frame by brute force, in the scenarios and with all spheres at one position, in turns.
 Json measure_brute_force(const Experiment& experiment);
 
 /// The frames of a step's result.

@@ -31,7 +31,7 @@ cpu_set_t allowed_processors() {
   return set;
 }
 
-// Seconds of work of the allowed processors, by Linux's own books; negative if there are none.
+// Seconds of work of the allowed processors, by Linux's accounting; negative if there is none.
 double busy_seconds() {
   const cpu_set_t allowed = allowed_processors();
   std::ifstream file("/proc/stat");
@@ -88,7 +88,7 @@ MachineLoad LoadWatch::so_far() const {
   const double all = load.seconds * CPU_COUNT(&allowed), busy = busy_seconds();
   load.known = busy_ >= 0 && busy >= 0;
   if (load.known && all > 0) load.others = std::clamp((busy - busy_ - (own_seconds() - own_)) / all, 0.0, 1.0);
-  // The books count in hundredths of a second: a shorter step says nothing.
+  // The accounting counts in hundredths of a second: a shorter step tells nothing.
   load.most_others = load.seconds > 1 ? load.others : 0;
   return load;
 }

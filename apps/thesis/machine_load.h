@@ -10,12 +10,12 @@ namespace bihive::thesis {
 struct MachineLoad {
   double seconds = 0;      ///< all of it; 0: nothing was measured
   double others = 0;       ///< the share of the processors' time that went to other programs, 0 to 1
-  bool known = false;      ///< the machine told it
-  double most_others = 0;  ///< the largest share in one of the parts
+  bool known = false;      ///< the machine reports it
+  double most_others = 0;  ///< the largest share in one of the stretches
 
   /// Both together.
   void add(const MachineLoad& part);
-  /// Rates that were measured meanwhile are not to be trusted: more than a twentieth in one of the parts.
+  /// Rates that were measured meanwhile are not to be trusted: more than a twentieth in one of the stretches.
   bool busy() const { return known && most_others > 0.05; }
   /// "0.4 % (at most 1.2 % in a step)".
   std::string text() const;

@@ -90,7 +90,7 @@ std::string compiler() {
   return fmt::format("{} {}{}; vectors: {}", kName, __VERSION__, kChecks, active_target());
 }
 
-// A word of a command line, in quotes where a shell would take it apart.
+// An argument of a command line, in quotes if a shell would split it.
 std::string in_shell(const std::string& word) {
   const bool plain = std::all_of(word.begin(), word.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -102,7 +102,7 @@ std::string in_shell(const std::string& word) {
   return quoted + "'";
 }
 
-// The command of this run, as one could write it again.
+// The command of this run, to repeat it.
 std::string command_of(int argc, const char* const* argv) {
   std::string command = "bihive";
   for (int i = 1; i < argc; ++i) command += " " + in_shell(argv[i]);
@@ -126,7 +126,7 @@ void run_thesis(const ThesisOptions& options, const std::string& command) {
   check_values(options);
   if (options.out == kStandardStream) fail_usage("--out names a folder, and - is none");
   if (fs::is_directory(options.out)) cli::check_outputs(cli::outputs_of(options), cli::inputs_of(options));
-  // Other runs are read before the long work: a file that is none is told at once, and this run may write over it.
+  // Other runs are read before the long work: a wrong file is reported at once, and this run may overwrite it.
   Json older;
   if (!options.against.empty()) older = read_older_run(options.against);
   Report report{settings};

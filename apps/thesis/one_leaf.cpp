@@ -1,5 +1,5 @@
-// Section D: does a tree of one leaf take more than brute force, and is a leaf for each sphere faster? The work of rays
-// is counted; their times stand beside it.
+// Section D: compares a tree of one leaf with brute force, and with a leaf per sphere. The work of rays is counted, and
+// timed.
 #include <fmt/format.h>
 
 #include "bihive/bih/observer.h"

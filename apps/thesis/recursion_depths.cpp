@@ -52,7 +52,7 @@ Json draw_depth(const Experiment& experiment, std::int64_t depth) {
               {"rays_per_pixel", static_cast<double>(rays) / pixels},
               {"transparent_sphere", transparent_sphere(of.scene, of.tracer, *image)}};
 
-  // The share of the picture that would change with one generation of rays less.
+  // The share of the picture that would change with one generation of rays fewer.
   if (of.settings.recursion == 1) return result;
   --of.settings.recursion;
   const std::optional<Image> before = draw(experiment, of.scene, of.tracer, of.settings);

@@ -98,7 +98,7 @@ std::string filled(std::string_view page, const Json& view, const std::string& f
   return parsed.render(data);
 }
 
-// What a template of an experiment sees.
+// The data of an experiment's template.
 Json view_of(const Experiment& part) {
   Json view = part.data;
   view["quick"] = part.settings.quick;
@@ -108,7 +108,7 @@ Json view_of(const Experiment& part) {
     if (row["row"] == "") row["row"] = row["claim"];
     view["findings_list"].push_back(std::move(row));
   }
-  // What no claim says, but what the run is made with.
+  // Facts about the run beyond the claims.
   for (const auto& [name, entry] : part.values.document()["values"].items())
     if (!entry.contains("claim"))
       view["choices"].push_back({{"name", name},

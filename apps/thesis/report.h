@@ -1,7 +1,7 @@
 // report.html: one file with everything, without network and server. And results.json for machines.
 //
-// All words and the layout stand in templates of Mustache: thesis/report/report.html, and thesis/EXPERIMENT/report.html
-// for each experiment. A template sees the experiment's data by name. Besides:
+// All text and the layout are in Mustache templates: thesis/report/report.html, and thesis/EXPERIMENT/report.html for
+// each experiment. A template sees the experiment's data by name. Besides:
 //   {{key}}_rows        of an object of objects: the same as a list, each with its "key"
 //   {{#f2}}..{{/f2}}    a number with two decimals; f0 to f4; {{#grouped}} with commas between thousands
 //   {{#figure}}FILE|CAPTION{{/figure}}     a picture of the output folder, or a chart, as a figure
@@ -29,14 +29,14 @@ struct Report {
 };
 
 /// Measurements of other devices, in files saved by the page's "Run the thesis on this device" and, for the window, by
-/// scripts/shown_frames: {"runs": [...], "shown": [...]}; a part without a file is left out. Runs are beside what the
-/// text states of its phone in the report. Fails if a file is neither.
+/// scripts/shown_frames: {"runs": [...], "shown": [...]}; a list without a file is omitted. The report shows runs
+/// beside the text's values for its phone. Fails if a file is neither.
 Json devices_data(const std::vector<std::string>& files, const Values& figure_4_4);
 
 /// An older run from its results.json: {"file", "version", "commit", "machine", "date", "findings": {"experiment
 /// name": {"ours", "verdict"}}}. Fails if the file is none.
 Json read_older_run(const std::string& file);
-/// Which findings have another verdict? {"file", "version", "commit", "machine", "date", "same", "changed", "moved",
+/// The findings with another verdict: {"file", "version", "commit", "machine", "date", "same", "changed", "moved",
 /// "fresh", "gone", "rows": [{"experiment", "name", "claim", "changed": "verdict" or "value", "then", "now",
 /// "then_ours", "now_ours"}]}
 Json compared_with(Json older, const std::list<Experiment>& parts);

@@ -1,4 +1,4 @@
-// Figure 4.1: the three scenarios, and whether the scenes are as the text says.
+// Figure 4.1: the three scenarios, compared with the text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ double needed_fov_deg(const Scene& scene) {
 
 using Ids = std::vector<std::int64_t>;
 
-// The number of the cube's corners with some of these spheres wholly inside a small cube; 0 if any lies elsewhere.
+// The number of the cube's corners with some of these spheres wholly inside a small cube; 0 if any lies outside them.
 int occupied_corners(const SphereSet& spheres, const Ids& ids, const Values& values) {
   const std::vector<double> cube = values.numbers("cube");
   const double low = cube.front(), high = cube.back(), side = values.number("scenario2.cluster_side");

@@ -38,7 +38,7 @@ Scene scene_of(const Experiment& experiment) {
   return values.scene(values.integer("scenario"), values.integer("spheres"), experiment.settings.seed);
 }
 
-// A tree of the figure, what the primary ray of each pixel does in it, row by row, and the picture of that.
+// A tree of the figure, the steps of each pixel's primary ray, row by row, and the picture of these.
 struct SmallTree {
   std::unique_ptr<const Scene> scene;  // the tracer refers to its spheres
   Tracer tracer;
@@ -70,8 +70,8 @@ std::optional<SmallTree> draw_traversal(const Experiment& experiment, const std:
   return SmallTree{std::move(made), std::move(tracer), std::move(rays), std::move(*picture)};
 }
 
-// Counts what can be seen in the picture, as shares of its pixels, and gives its smallest green above 0, which is that
-// of one gap.
+// Counts colours in the picture, as shares of its pixels, and returns its smallest green above 0, which is that of one
+// gap.
 Json seen_in(const SmallTree& tree, double& green_step) {
   std::int64_t green = 0, blue = 0, bright = 0, saturated = 0, gaps = 0, visits = 0;
   int smallest = 0;
@@ -101,7 +101,7 @@ Json seen_in(const SmallTree& tree, double& green_step) {
 Json draw_tree(const Experiment& experiment, const std::string& letter) {
   const std::optional<SmallTree> small = draw_traversal(experiment, letter);
   if (!small) return {};
-  // The drawing of the tree has two parts, so it is twice as large in a quick run.
+  // The drawing of the tree has two halves, so it is twice as large in a quick run.
   const std::optional<Image> tree =
       draw(experiment, *small->scene, small->tracer, picture_settings(experiment, *small->scene, View::tree, 2));
   if (!tree) return {};
@@ -157,8 +157,8 @@ Json build_as_stated(const Experiment& experiment) {
   return trees;
 }
 
-// What the text says of the colours: the smallest green is that of one gap; where there is more green than blue; where
-// a ray passes the most gaps.
+// The text's statements about the colours: the smallest green is that of one gap; where there is more green than blue;
+// where a ray passes the most gaps.
 void add_colours(Json& data) {
   double smallest = 1, most = 0;
   std::vector<std::string> green, widest;

@@ -5,7 +5,7 @@
 namespace bihive::thesis {
 namespace {
 
-// Other work on the machine hardly counts.
+// Other work on the machine hardly affects it.
 double thread_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -32,8 +32,8 @@ inline Json quartiles_json(const std::vector<double>& values) {
   return {{"lower", all.lower}, {"median", all.median}, {"upper", all.upper}};
 }
 
-/// The results of `of` for the seeds 1, 2, ..., whatever --seed says. The grid of Scenario 1 has no chance in it, and
-/// one seed. Only the first call may fail.
+/// The results of `of` for the seeds 1, 2, ..., whatever --seed says. The grid of Scenario 1 is not random, and has one
+/// seed. Only the first call may fail.
 template <class Of>
 auto over_seeds(const Experiment& experiment, std::int64_t scenario, std::int64_t seeds, const Of& of) {
   std::vector<decltype(of(std::uint64_t{1}))> found{of(1)};

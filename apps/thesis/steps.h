@@ -12,12 +12,11 @@ namespace bihive::thesis {
 /// Fails if it cannot be made.
 void make_folder(const std::string& folder);
 
-/// Takes over the results that the same build of the program saved with the same settings and stated values, if all
-/// their pictures are still there.
+/// Loads the results that the same build of the program saved with the same settings and stated values, if all their
+/// pictures still exist.
 void load_results(Experiment& experiment, const std::string& out);
 
-/// Runs the steps that are asked for and not done yet. Returns early after a signal. Fails if a result cannot be
-/// written.
+/// Runs the requested steps that are not done yet. Returns early after a signal. Fails if a result cannot be written.
 void run_steps(std::list<Experiment>& experiments, const std::string& out);
 
 }  // namespace bihive::thesis

@@ -1,4 +1,4 @@
-// The report's templates, built into the program.
+// The report's templates, embedded in the program.
 #pragma once
 
 #include <string_view>

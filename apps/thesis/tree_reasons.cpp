@@ -11,10 +11,10 @@
 namespace bihive::thesis {
 namespace {
 
-// Space that no node of these levels covers is looked at down to here.
+// The levels down to which uncovered space is measured.
 constexpr std::size_t kVoidLevels = 10;
 
-// The part of space that a node is responsible for, in stored units.
+// The region of a node, in stored units.
 struct Region {
   std::array<double, 3> lo, hi;
   double volume() const { return (hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]); }

@@ -1,5 +1,5 @@
-// The properties of trees by which the text explains its results: how many spheres a leaf holds and how that varies,
-// how often the children of a node overlap or leave a gap, how much empty space is cut off.
+// The properties of trees by which the text explains its results: spheres per leaf and their variation, the frequency
+// of overlaps and gaps between children, and the empty space cut off.
 #pragma once
 
 #include <cstdint>

@@ -222,7 +222,7 @@ class TableData {
       row["ratio"] = ours["median"].get<double>() / stated;
       data_["build"]["rows"].push_back(std::move(row));
     }
-    // Round by round: the part of the first configuration's time that the last saves, and the speed-up.
+    // Round by round: the share of the first configuration's time that the last saves, and the speed-up.
     double least = 1e9;
     for (const std::int64_t scenario : scenarios_) {
       const std::vector<double> first = of({scenario, max_prims_.front()}), last = of({scenario, max_prims_.back()});

@@ -26,7 +26,7 @@ class Values {
   std::vector<double> numbers(const std::string& name) const { return value_or_fail(stated_.numbers(name)); }
   /// Whole numbers above 0.
   std::vector<std::int64_t> integers(const std::string& name) const;
-  /// A limit of a tree: 0 stands for infinity.
+  /// A limit of a tree: 0 means infinity.
   std::int64_t limit(const std::string& name) const;
   /// A side of a picture in pixels, 1 to 65535; `divisor`: of a smaller one.
   int side(const std::string& name, int divisor = 1) const;
@@ -35,7 +35,7 @@ class Values {
   /// The whole file: "values", each with its claim if it has one, and "remarks": claims without a comparison.
   const Json& document() const { return document_; }
 
-  /// The scene of a scenario with so many spheres, of the value "radius". Fails if there is no such scenario.
+  /// The scene of a scenario with `count` spheres, of the value "radius". Fails if there is no such scenario.
   Scene scene(std::int64_t scenario, std::int64_t spheres, std::uint64_t seed) const;
 
  private:

@@ -58,7 +58,7 @@ Status App::open() {
   window_ = std::move(*window);
   texture_ = std::make_unique<PictureTexture>(window_->gl());
 
-  // A missing graphics processor is an error only if the user asked for it.
+  // A missing GPU is an error only if the user chose it.
   const Result<GlFunctions> functions = load_gl_functions(glfwGetProcAddress);
   const Status attached = functions ? viewer_.attach_gl(*functions) : Status(functions.error());
   const ImVec2 size = picture_size();
@@ -107,7 +107,7 @@ void App::listen(GLFWwindow* window) {
 
 // --- Events of the window --------------------------------------------------------------------------------------
 
-// Longer than most functions: a switch with a line or two for each key.
+// Longer than most functions: a switch with a line or two per key.
 void App::on_key(int key, int action, int mods) {
   if (action == GLFW_RELEASE) return;
   if (asked_file_) return on_prompt_key(key, mods);
@@ -182,8 +182,7 @@ void App::on_key(int key, int action, int mods) {
   }
 }
 
-// The name of a file is typed event by event, not frame by frame, so that no letter is lost while a picture is being
-// made.
+// The name of a file is typed event by event, not frame by frame, so that no letter is lost while a picture is drawn.
 void App::on_prompt_key(int key, int mods) {
   prompt_is_new_ = false;
   if (key == GLFW_KEY_BACKSPACE) {
@@ -219,8 +218,8 @@ void App::on_character(unsigned character) {
   put(0x80 | (character & 0x3F));
 }
 
-// The pointer's place at this event: ImGui knows the place at the last frame only, and GLFW the place now. So the
-// overlay is asked for its rectangle, and not ImGui whether the pointer is over it.
+// The pointer's position at this event: ImGui has that of the last frame only, and GLFW the current one. So the
+// position is compared with the overlay's rectangle, instead of asking ImGui.
 bool App::over_picture() const {
   const bool over_message = (asked_file_ || !message_.empty()) && x_ >= overlay_min_.x && x_ < overlay_max_.x &&
                             y_ >= overlay_min_.y && y_ < overlay_max_.y;
@@ -282,8 +281,7 @@ void App::open_built_in(const std::string& name) {
   if (facts) take_frames(nullptr, 0);
 }
 
-// The same input with other radii, in the same look and with the same settings. A camera that nobody has moved is
-// placed anew.
+// The same input with other radii, with the same appearance and settings. A camera that was not moved is placed again.
 void App::read_again(const ReadOptions& wanted) {
   ReadOptions reading = wanted;
   reading.frame = reader_ ? frame_in_viewer_ : reading.frame;
@@ -350,15 +348,15 @@ void App::apply(const ViewerLook& look) {
   panel_.table.forget();
 }
 
-void App::follow(const PanelWishes& wishes) {
-  if (wishes.look) apply(*wishes.look);
-  if (wishes.settings) apply(*wishes.settings);
-  if (wishes.side) viewer_.look_from(*wishes.side);
-  if (wishes.home) viewer_.home();
-  framed_ = framed_ || wishes.side || wishes.home;
-  if (wishes.reading) read_again(*wishes.reading);
-  if (wishes.built_in) open_built_in(*wishes.built_in);
-  if (wishes.save) save();
+void App::follow(const PanelRequests& requests) {
+  if (requests.look) apply(*requests.look);
+  if (requests.settings) apply(*requests.settings);
+  if (requests.side) viewer_.look_from(*requests.side);
+  if (requests.home) viewer_.home();
+  framed_ = framed_ || requests.side || requests.home;
+  if (requests.reading) read_again(*requests.reading);
+  if (requests.built_in) open_built_in(*requests.built_in);
+  if (requests.save) save();
 }
 
 Result<PngPixels> App::picture_to_save() {
@@ -422,15 +420,15 @@ void App::go_to(std::int64_t frame) {
   wake();
 }
 
-void App::follow(const PlayerWishes& wishes) {
-  if (wishes.toggles) toggle_play();
-  if (wishes.step != 0) step_frames(wishes.step);
-  if (wishes.frame) go_to(*wishes.frame);
-  if (wishes.frames_per_second) player_.set_frames_per_second(*wishes.frames_per_second);
-  if (wishes.loops) player_.set_loops(*wishes.loops);
+void App::follow(const PlayerRequests& requests) {
+  if (requests.toggles) toggle_play();
+  if (requests.step != 0) step_frames(requests.step);
+  if (requests.frame) go_to(*requests.frame);
+  if (requests.frames_per_second) player_.set_frames_per_second(*requests.frames_per_second);
+  if (requests.loops) player_.set_loops(*requests.loops);
 }
 
-// Shows the frame that is wanted once the reader has it, and lets the reader go ahead.
+// Shows the requested frame once the reader has it, and lets the reader read ahead.
 void App::continue_playing() {
   if (!reader_) return;
   if (player_.advance(now_ms())) wake();
@@ -529,16 +527,16 @@ void App::draw(const FrameReport& report, Image* screenshot) {
     viewer_.show(0, {0, 0, static_cast<int>(size.x), static_cast<int>(size.y)});
   else
     texture_->draw({size.x * unit, size.y * unit});
-  PanelWishes wishes;
-  if (panel_shown_) wishes = panel_.draw(viewer_, report, ImGui::GetIO().DisplaySize, window_->text_scale());
-  PlayerWishes played;
+  PanelRequests requests;
+  if (panel_shown_) requests = panel_.draw(viewer_, report, ImGui::GetIO().DisplaySize, window_->text_scale());
+  PlayerRequests played;
   if (reader_) played = draw_player_bar(player_, viewer_.facts(), size.x * unit, window_->text_scale());
   if (asked_file_)
     draw_prompt();
   else
     draw_message();
   window_->end_frame(screenshot);
-  follow(wishes);
+  follow(requests);
   follow(played);
 }
 

@@ -23,8 +23,8 @@ namespace bihive::window {
 
 class App {
  public:
-  /// The viewer has the scene of the request, in its look and with its settings but the engine.
-  /// `frames`: of the request's file; null: there is one alone.
+  /// The viewer has the scene of the request, with its appearance and settings except the engine. `frames`: of the
+  /// request's file; null: a single frame.
   App(Viewer& viewer, const Request& request, std::shared_ptr<const Frames> frames)
       : viewer_(viewer), request_(request), input_(request.input), first_frames_(std::move(frames)) {}
   ~App();
@@ -56,7 +56,7 @@ class App {
   void opened(const Result<SceneFacts>& facts);
   void apply(const ViewerSettings& settings);
   void apply(const ViewerLook& look);
-  void follow(const PanelWishes& wishes);
+  void follow(const PanelRequests& requests);
   void save();
 
   // The player.
@@ -65,7 +65,7 @@ class App {
   void step_frames(int by);
   void go_to(std::int64_t frame);
   void continue_playing();
-  void follow(const PlayerWishes& wishes);
+  void follow(const PlayerRequests& requests);
   Result<PngPixels> picture_to_save();
   void say(const std::string& text, bool bad);
 
@@ -78,8 +78,8 @@ class App {
 
   Viewer& viewer_;
   Request request_;
-  std::string input_;   // on show: a built-in name or a file
-  bool framed_ = true;  // nobody has moved the camera since it showed the whole scene, or was the scene's own
+  std::string input_;   // shown: a built-in name or a file
+  bool framed_ = true;  // the camera was not moved since it showed the whole scene, or was the scene's own
   std::unique_ptr<Window> window_;
   std::unique_ptr<PictureTexture> texture_;
   Panel panel_;
@@ -87,7 +87,7 @@ class App {
   Player player_;
   std::unique_ptr<FrameReader> reader_;  // null: the scene has one frame
   std::int64_t frame_in_viewer_ = 0;
-  bool frame_is_drawn_ = true;  // that one
+  bool frame_is_drawn_ = true;  // the requested frame
   bool panel_shown_ = true;
   std::string message_;
   bool message_is_bad_ = false;

@@ -22,7 +22,7 @@ bool group(const char* name) {
   return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_None);
 }
 
-// A name out of a list; the empty one is shown as `otherwise`.
+// A name from a list; the empty one is shown as `otherwise`.
 bool choice(const char* name, const char* otherwise, const std::vector<std::string>& names, std::string& chosen) {
   label(name);
   bool changed = false;
@@ -47,7 +47,7 @@ void check(const char* name, bool& value) {
   ImGui::Checkbox((std::string("##") + name).c_str(), &value);
 }
 
-// Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
+// Numbers of the slider are rounded to few digits, so that 0.30000001 is never shown.
 void angle_slider(const char* name, double& value, double min, double max, const char* format) {
   label(name);
   auto shown = static_cast<float>(value);
@@ -57,7 +57,7 @@ void angle_slider(const char* name, double& value, double min, double max, const
     value = std::round(100 * static_cast<double>(shown)) / 100;
 }
 
-// A control's name, which the screen does not show.
+// A control's name, not shown on the screen.
 std::string hidden_name(const Parameter& parameter) {
   return "##" + std::string(parameter.id);
 }
@@ -94,7 +94,7 @@ bool whole_slider(const Parameter& parameter, SettingValue& value) {
   return true;
 }
 
-// Numbers of the slider are kept with few digits, so that nobody meets 0.30000001.
+// Numbers of the slider are rounded to few digits, so that 0.30000001 is never shown.
 bool number_slider(const Parameter& parameter, SettingValue& value) {
   auto shown = static_cast<float>(std::get<double>(value));
   const bool is_whole = parameter.slider_step >= 1;
@@ -149,7 +149,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-// The parts of ATTR:MAP:MIN,MAX:log.
+// The fields of ATTR:MAP:MIN,MAX:log.
 struct ColourByParts {
   std::string attribute, map, range, log;
 
@@ -312,7 +312,7 @@ void EffectsPanel::draw_lens(ViewerSettings& settings) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the lens's radius, in the file's units");
   ImGui::EndDisabled();
 
-  // What is sharp. A choice that waits for its distance or its spheres stays.
+  // The focus. A choice still without its distance or spheres stays.
   ImGui::BeginDisabled(camera.aperture == 0);
   constexpr std::array<const char*, 3> kKinds{"middle", "a distance", "selected spheres"};
   const int given = !settings.focus_on.empty() ? 2 : camera.focus > 0 ? 1 : 0;
@@ -351,7 +351,7 @@ void EffectsPanel::draw_cell(const SceneFacts& facts, ViewerSettings& settings) 
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip(
-        "%s", gpu ? "the CPU engine alone draws cells and copies" : "AxBxC: so many along the vectors of the cell");
+        "%s", gpu ? "the CPU engine alone draws cells and copies" : "AxBxC: copies along the vectors of the cell");
 }
 
 void EffectsPanel::start_anew() {

@@ -1,5 +1,4 @@
-// The panel's groups for what a picture gets beyond plain rays: colours, light, lines, lens, labels and cell. Each is
-// closed until somebody opens it.
+// The panel's groups of effects: colours, light, lines, lens, labels and cell. Each is closed until the user opens it.
 #pragma once
 
 #include <string>
@@ -11,19 +10,20 @@ namespace bihive::window {
 
 class EffectsPanel {
  public:
-  /// Draws the groups and changes what the user changes. `look_changed`: the look is another one.
+  /// Draws the groups and applies the user's changes. `look_changed`: the look has changed.
   void draw(const Viewer& viewer, ViewerSettings& settings, ViewerLook& look, bool& look_changed);
 
-  /// Another scene is on show: forgets what is being written and chosen.
+  /// Another scene is shown: discards unfinished input and choices.
   void start_anew();
 
-  /// A field of text, also for other parts of the panel. True when the user has finished another text; until then
-  /// `value` stays.
+  /// A text field, also for other groups of the panel. True when the user has finished another text; until then `value`
+  /// stays.
   bool text(const char* name, const char* hint, std::string& value);
-  /// The same for a number; an empty text, or one that is no number from 0, gives `otherwise`, which is shown as empty.
+  /// The same for a number; an empty text, or one that is not a number from 0, gives `otherwise`, which is shown as
+  /// empty.
   bool number(const char* name, const char* hint, double otherwise, double& value);
 
-  /// The controls of a group, one for each row of settings/parameter.h with a label.
+  /// The controls of a group, one per row of settings/parameter.h with a label.
   void parameters(ParameterGroup group, ViewerSettings& settings);
 
  private:
@@ -34,9 +34,9 @@ class EffectsPanel {
   void draw_lens(ViewerSettings& settings);
   void draw_cell(const SceneFacts& facts, ViewerSettings& settings);
 
-  std::string edited_field_, edited_text_;  // what is being written, and where
-  bool own_lights_ = false;                 // chosen, although there are none yet
-  int focus_kind_ = -1;                     // chosen, although its distance or selection is not given yet
+  std::string edited_field_, edited_text_;  // the unfinished text and its field
+  bool own_lights_ = false;                 // chosen, but still without lights
+  int focus_kind_ = -1;                     // chosen, but still without distance or selection
 };
 
 }  // namespace bihive::window

@@ -45,7 +45,7 @@ std::optional<Result<std::shared_ptr<PreparedFrame>>> FrameReader::take(std::int
   return std::nullopt;
 }
 
-// The first wanted frame that has not come; the caller holds the mutex.
+// The first requested frame that is missing; the caller holds the mutex.
 std::optional<std::int64_t> FrameReader::missing() const {
   for (const std::int64_t frame : wanted_)
     if (std::none_of(came_.begin(), came_.end(), [frame](const Came& came) { return came.frame == frame; }))
@@ -61,14 +61,14 @@ void FrameReader::run() {
     const std::int64_t frame = *missing();
     const std::shared_ptr<const FrameMaker> maker = maker_;
 
-    // Read it and build its trees, while the others may go on.
+    // Read it and build its trees, while other threads continue.
     lock.unlock();
     Result<SphereFile> read = frames_->read(frame);
     Result<std::shared_ptr<PreparedFrame>> made =
         read ? maker->make(std::move(*read)) : Result<std::shared_ptr<PreparedFrame>>(read.error());
     lock.lock();
 
-    // Nobody may want it any more.
+    // It may no longer be needed.
     const bool is_wanted = std::find(wanted_.begin(), wanted_.end(), frame) != wanted_.end();
     if (maker != maker_ || !is_wanted) continue;
     came_.push_back({frame, std::move(made)});

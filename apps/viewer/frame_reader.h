@@ -1,4 +1,4 @@
-// Reads frames in a thread of its own and makes them ready, so that the window never waits for a file or a tree.
+// Reads and prepares frames in a thread, so that the window never waits for a file or a tree.
 #pragma once
 
 #include <condition_variable>
@@ -20,14 +20,14 @@ class FrameReader {
  public:
   /// `on_ready` is called in the reader's thread when a frame has come.
   FrameReader(std::shared_ptr<const Frames> frames, std::function<void()> on_ready);
-  /// Waits for the frame that is being read.
+  /// Waits for the frame being read.
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;
 
-  /// From now on this frame is wanted, and `ahead` after it. What came for other frames or another maker is dropped.
+  /// Requests this frame, and `ahead` frames after it. Drops results for other frames or another maker.
   void want(std::int64_t frame, std::optional<std::int64_t> ahead, std::shared_ptr<const FrameMaker> maker);
-  /// The frame, once, if it has come.
+  /// The frame, once, if it is ready.
   std::optional<Result<std::shared_ptr<PreparedFrame>>> take(std::int64_t frame);
 
  private:
@@ -44,7 +44,7 @@ class FrameReader {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool ends_ = false;
-  std::vector<std::int64_t> wanted_;  // that have not been taken yet, the first one first
+  std::vector<std::int64_t> wanted_;  // not yet taken, the first one first
   std::shared_ptr<const FrameMaker> maker_;
   std::vector<Came> came_;
   std::thread thread_;  // the last member: it uses the others

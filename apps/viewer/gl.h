@@ -1,4 +1,4 @@
-// The few functions of OpenGL that the window itself calls, looked up in its context.
+// The few functions of OpenGL that the window itself calls.
 #pragma once
 
 #include <GLES3/gl3.h>
@@ -28,7 +28,7 @@ struct Gl {
 #undef BIHIVE_WINDOW_GL_MEMBER
 };
 
-/// Of the context that is current. Error: it lacks one.
+/// Looks up the functions of the current context. Error: it lacks one.
 Result<Gl> load_gl();
 
 }  // namespace bihive::window

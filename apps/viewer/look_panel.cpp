@@ -23,7 +23,7 @@ bool has_value(const std::string& action) {
   return action != "hide" && action != "show";
 }
 
-// A list to choose from; the names of `choices` are what is kept, the empty one is shown as `otherwise`.
+// A list to choose from; the names of `choices` are stored, the empty one is shown as `otherwise`.
 bool combo(const char* name, const std::vector<std::string>& choices, const char* otherwise, std::string& chosen) {
   label(name);
   const std::string id = std::string("##") + name;
@@ -70,7 +70,7 @@ bool draw_background(std::string& background) {
   return changed;
 }
 
-// Names to choose one from, as an arrow beside a field.
+// A menu of names, opened by an arrow beside a field.
 bool names_arrow(const char* id, const std::vector<std::string>& names, std::string& chosen) {
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   bool changed = false;
@@ -196,7 +196,7 @@ std::optional<ViewerLook> LookPanel::draw(const Viewer& viewer) {
   if (ImGui::Button("add a look for a selection", {-1, 0})) rows_.push_back({{"", "colour", ""}, "", false});
   if (!changed && !rows_changed && !to_remove) return std::nullopt;
 
-  // Incomplete rows wait; a change of something else goes with the rows that are on show.
+  // Incomplete rows wait; a change of something else is applied with the current rows.
   rows_sent_ = rows_changed || to_remove;
   if (rows_sent_) {
     look.rows.clear();

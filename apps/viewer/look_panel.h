@@ -1,4 +1,4 @@
-// The panel's part for the look: style, colours of elements, background, and rows of selections with actions.
+// The panel's section for appearance: style, colours of elements, background, and rows of selections with actions.
 #pragma once
 
 #include <cstddef>
@@ -14,21 +14,21 @@ namespace bihive::window {
 
 class LookPanel {
  public:
-  /// Draws it; returns the look that the user now wants, if it is another one.
+  /// Draws it; returns the user's new look, if it has changed.
   std::optional<ViewerLook> draw(const Viewer& viewer);
 
-  /// Viewer::set_look()'s answer to the last wanted look. Returns the words of an error that no row is to blame for;
+  /// Takes Viewer::set_look()'s answer to the last requested look. Returns the message of an error that is not a row's;
   /// those of rows are shown below their rows.
   std::string answered(const Result<std::vector<std::int64_t>>& counts, std::size_t failed_row);
 
-  /// The next wanted look comes from elsewhere, and has the rows that are on show.
+  /// The next requested look is made by another panel, and has the current rows.
   void leave_rows() { rows_sent_ = false; }
 
-  /// Another scene is on show: its rows come from its look.
+  /// Another scene is shown: its rows come from its look.
   void start_anew(const ViewerLook& look);
 
  private:
-  // A row as it is being edited, and what is said of it.
+  // A row being edited, and its message.
   struct EditedRow {
     LookRow row;
     std::string words;
@@ -41,8 +41,8 @@ class LookPanel {
   bool draw_value(const SceneFacts& facts, LookRow& row) const;
 
   std::vector<EditedRow> rows_;
-  std::vector<std::size_t> sent_;  // positions of the rows in the last wanted look that has other rows
-  bool rows_sent_ = false;         // the last wanted look has other rows
+  std::vector<std::size_t> sent_;  // positions of the rows in the last requested look with other rows
+  bool rows_sent_ = false;         // the last requested look has other rows
 };
 
 }  // namespace bihive::window

@@ -27,7 +27,7 @@ void prepare() {
 }
 __attribute__((section(".preinit_array"), used)) void (*const kFirst)() = prepare;
 
-// File names and other texts of users may hold anything.
+// File names and other texts of users may contain anything.
 void say(const char* kind, const std::string& text) {
   std::fprintf(stderr, "bihive: %s: %s\n", kind, escaped(text).c_str());
 }
@@ -44,7 +44,7 @@ Result<LoadedFile> load(Viewer& viewer, const Request& request) {
   return LoadedFile{std::move(*facts), nullptr};
 }
 
-// The look and the settings that were asked for; the engine comes with the window.
+// The requested look and settings; the window sets the engine.
 Status choose(Viewer& viewer, const Request& request) {
   const Result<ViewerLook> look = viewer_look_from_json(request.look, viewer.look());
   if (!look) return look.error();

@@ -40,8 +40,8 @@ Camera projected(Camera camera, Projection projection) {
 
 }  // namespace
 
-PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale) {
-  PanelWishes wishes;
+PanelRequests Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale) {
+  PanelRequests requests;
   ViewerSettings settings = viewer.settings();
   const float across = width(text_scale);
   ImGui::SetNextWindowPos({display.x - across, 0});
@@ -49,27 +49,27 @@ PanelWishes Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 
   ImGui::Begin("bihive", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  draw_scene(viewer, wishes);
+  draw_scene(viewer, requests);
   heading("look");
-  wishes.look = look.draw(viewer);
+  requests.look = look.draw(viewer);
   draw_picture(viewer, settings);
   ViewerLook wanted = viewer.look();
   bool look_changed = false;
   effects.draw(viewer, settings, wanted, look_changed);
   if (look_changed) look.leave_rows();
-  if (look_changed) wishes.look = wanted;
+  if (look_changed) requests.look = wanted;
   draw_speed(viewer, report);
-  draw_camera(settings, wishes);
-  draw_saving(wishes);
+  draw_camera(settings, requests);
+  draw_saving(requests);
   draw_tree(settings);
   draw_keys();
   ImGui::End();
 
-  if (settings_to_json(settings) != settings_to_json(viewer.settings())) wishes.settings = settings;
-  return wishes;
+  if (settings_to_json(settings) != settings_to_json(viewer.settings())) requests.settings = settings;
+  return requests;
 }
 
-void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) {
+void Panel::draw_scene(const Viewer& viewer, PanelRequests& requests) {
   const SceneFacts& facts = viewer.facts();
   const std::size_t slash = facts.name.rfind('/');
   const std::string name = slash == std::string::npos ? facts.name : facts.name.substr(slash + 1);
@@ -77,7 +77,7 @@ void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) {
   if (ImGui::BeginCombo("##scene", name.c_str(), ImGuiComboFlags_HeightLarge)) {
     ImGui::TextColored(kDim, "built-in scenes; for a file press O, or drop it");
     for (const char* built_in : kBuiltInScenes)
-      if (ImGui::Selectable(built_in, facts.name == built_in)) wishes.built_in = built_in;
+      if (ImGui::Selectable(built_in, facts.name == built_in)) requests.built_in = built_in;
     ImGui::EndCombo();
   }
   ImGui::TextColored(
@@ -93,7 +93,7 @@ void Panel::draw_scene(const Viewer& viewer, PanelWishes& wishes) {
   bool changed = effects.number("radius", "the file's own", kOwn, radius);
   if (changed) wanted.radius = radius == kOwn ? std::nullopt : std::optional(radius);
   if (can_scale_radii) changed = effects.number("radius x", "1", 1, wanted.radius_scale) || changed;
-  if (changed) wishes.reading = wanted;
+  if (changed) requests.reading = wanted;
   ImGui::PushTextWrapPos(0);
   for (const std::string& warning : facts.warnings) ImGui::TextColored(kBad, "%s", warning.c_str());
   ImGui::PopTextWrapPos();
@@ -122,7 +122,7 @@ void Panel::draw_picture(const Viewer& viewer, ViewerSettings& settings) {
   effects.parameters(ParameterGroup::picture, settings);
 }
 
-void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {
+void Panel::draw_camera(ViewerSettings& settings, PanelRequests& requests) const {
   heading("camera");
   label("projection");
   if (ImGui::BeginCombo("##projection", name_of(kProjections, settings.camera.projection).c_str())) {
@@ -139,8 +139,8 @@ void Panel::draw_camera(ViewerSettings& settings, PanelWishes& wishes) const {
     return ImGui::Button(name, {across, 0});
   };
   for (const auto& [name, side] : kSides)
-    if (button(name.c_str())) wishes.side = side;
-  if (button("home")) wishes.home = true;
+    if (button(name.c_str())) requests.side = side;
+  if (button("home")) requests.home = true;
 }
 
 void Panel::draw_tree(ViewerSettings& settings) const {
@@ -169,13 +169,13 @@ void Panel::draw_speed(const Viewer& viewer, const FrameReport& report) const {
   }
 }
 
-void Panel::draw_saving(PanelWishes& wishes) {
+void Panel::draw_saving(PanelRequests& requests) {
   heading("save the picture");
   const float button = ImGui::CalcTextSize("save").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
   ImGui::InputText("##file", &file_name);
   ImGui::SameLine();
-  if (ImGui::Button("save")) wishes.save = true;
+  if (ImGui::Button("save")) requests.save = true;
   label("pixels");
   std::array<int, 2> size{save_size.width, save_size.height};
   if (ImGui::InputInt2("##pixels", size.data()))

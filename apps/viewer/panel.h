@@ -16,8 +16,8 @@
 
 namespace bihive::window {
 
-/// Data of one frame.
-struct PanelWishes {
+/// Requests of one frame.
+struct PanelRequests {
   std::optional<ViewerSettings> settings;
   std::optional<ViewerLook> look;
   std::optional<ViewFrom> side;
@@ -32,23 +32,23 @@ class Panel {
   static float width(double text_scale) { return static_cast<float>(348 * text_scale); }
 
   /// Draws the panel at the right border of a display of that size.
-  PanelWishes draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale);
+  PanelRequests draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale);
 
   TreeTable table;
   LookPanel look;
   EffectsPanel effects;
-  ReadOptions reading;                   ///< how the input on show was read
+  ReadOptions reading;                   ///< reading options of the shown input
   bool can_scale_radii = true;           ///< the input is a file, or the demo
   std::string file_name = "bihive.png";  ///< where pictures are saved
   PictureSizePx save_size{0, 0};         ///< 0: as on the screen
 
  private:
-  void draw_scene(const Viewer& viewer, PanelWishes& wishes);
+  void draw_scene(const Viewer& viewer, PanelRequests& requests);
   void draw_picture(const Viewer& viewer, ViewerSettings& settings);
   void draw_tree(ViewerSettings& settings) const;
-  void draw_camera(ViewerSettings& settings, PanelWishes& wishes) const;
+  void draw_camera(ViewerSettings& settings, PanelRequests& requests) const;
   void draw_speed(const Viewer& viewer, const FrameReport& report) const;
-  void draw_saving(PanelWishes& wishes);
+  void draw_saving(PanelRequests& requests);
   void draw_keys() const;
 };
 

@@ -1,4 +1,4 @@
-// A picture of the CPU as a texture, for ImGui to draw.
+// A picture of the CPU as a texture drawn by ImGui.
 #pragma once
 
 #include <imgui.h>

@@ -15,8 +15,8 @@ float player_bar_height(double text_scale) {
   return ImGui::GetFrameHeight() + 2 * kMargin * static_cast<float>(text_scale);
 }
 
-PlayerWishes draw_player_bar(const Player& player, const SceneFacts& facts, float width, double text_scale) {
-  PlayerWishes wishes;
+PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, float width, double text_scale) {
+  PlayerRequests requests;
   const auto scale = static_cast<float>(text_scale);
   const float height = player_bar_height(text_scale);
   ImGui::SetNextWindowPos({0, ImGui::GetIO().DisplaySize.y - height});
@@ -28,41 +28,41 @@ PlayerWishes draw_player_bar(const Player& player, const SceneFacts& facts, floa
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus);
 
   const float wide = 56 * scale;
-  if (ImGui::Button(player.playing() ? "pause" : "play", {wide, 0})) wishes.toggles = true;
+  if (ImGui::Button(player.playing() ? "pause" : "play", {wide, 0})) requests.toggles = true;
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("space");
   ImGui::SameLine();
-  if (ImGui::Button("<")) wishes.step = -1;
+  if (ImGui::Button("<")) requests.step = -1;
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("one frame back: the key ,");
   ImGui::SameLine();
-  if (ImGui::Button(">")) wishes.step = 1;
+  if (ImGui::Button(">")) requests.step = 1;
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("one frame on: the key .");
 
-  // The time line takes what the others leave.
+  // The time line fills the remaining space.
   const float space = ImGui::GetStyle().ItemSpacing.x;
-  const float behind = 76 * scale + ImGui::CalcTextSize("loop").x + ImGui::GetFrameHeight() + 4 * space;
+  const float after = 76 * scale + ImGui::CalcTextSize("loop").x + ImGui::GetFrameHeight() + 4 * space;
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(std::max(40 * scale, ImGui::GetContentRegionAvail().x - behind));
+  ImGui::SetNextItemWidth(std::max(40 * scale, ImGui::GetContentRegionAvail().x - after));
   const std::int64_t first = 0, last = player.frames() - 1;
   std::int64_t frame = player.frame();
   const std::string time = facts.time_ps && player.is_shown() ? fmt::format(", {:g} ps", *facts.time_ps) : "";
   const std::string words = fmt::format("{} of 0 to {}{}", frame, last, time);
   if (ImGui::SliderScalar("##frame", ImGuiDataType_S64, &frame, &first, &last, words.c_str(),
                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput))
-    wishes.frame = frame;
+    requests.frame = frame;
 
   ImGui::SameLine();
   ImGui::SetNextItemWidth(76 * scale);
   auto speed = static_cast<float>(player.frames_per_second());
   if (ImGui::DragFloat("##speed", &speed, 0.2F, static_cast<float>(kSlowestPlay), static_cast<float>(kFastestPlay),
                        "%.4g fps", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
-    wishes.frames_per_second = static_cast<double>(speed);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("frames a second; drag, or a double click to write");
+    requests.frames_per_second = static_cast<double>(speed);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("frames per second; drag, or double-click to type");
   ImGui::SameLine();
   bool loops = player.loops();
-  if (ImGui::Checkbox("loop", &loops)) wishes.loops = loops;
+  if (ImGui::Checkbox("loop", &loops)) requests.loops = loops;
   ImGui::End();
   ImGui::PopStyleVar();
-  return wishes;
+  return requests;
 }
 
 }  // namespace bihive::window

@@ -12,7 +12,7 @@
 namespace bihive::window {
 
 /// Clicks of one frame of the window.
-struct PlayerWishes {
+struct PlayerRequests {
   bool toggles = false;  ///< play or pause
   int step = 0;
   std::optional<std::int64_t> frame;
@@ -23,7 +23,7 @@ struct PlayerWishes {
 /// In ImGui's units.
 float player_bar_height(double text_scale);
 
-/// Draws it at the lower border of the picture, which is so wide.
-PlayerWishes draw_player_bar(const Player& player, const SceneFacts& facts, float width, double text_scale);
+/// Draws it at the lower border of the picture, whose width it gets.
+PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, float width, double text_scale);
 
 }  // namespace bihive::window

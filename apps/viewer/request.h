@@ -9,7 +9,7 @@
 //    "screenshot": "window.png"}
 //
 // scripts/shown_frames starts it with {"shown_frames": "frames.json", "seconds": 2}, and nothing else: the window shows
-// the configurations of the thesis's Figure 4.4, writes how many frames a second it showed, and ends.
+// the configurations of the thesis's Figure 4.4, writes how many frames per second it showed, and ends.
 #pragma once
 
 #include <optional>

@@ -18,7 +18,7 @@ double clock_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// The driver that draws the window: a software one takes time from the frames.
+// The window's driver: a software one takes time from the frames.
 std::string device_words(const Gl& gl) {
   const auto* const renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
   return processor_name() + ", vectors: " + std::string(active_target()) + "; the window by " +
@@ -37,7 +37,7 @@ Result<std::string> measure_shown_frames(double seconds) {
 
   const int width = frames.plan().width_px, height = frames.plan().height_px;
   Result<std::unique_ptr<Window>> opened =
-      Window::open("bihive: frames shown a second", width, height, nullptr, [](GLFWwindow*) {});
+      Window::open("bihive: frames shown per second", width, height, nullptr, [](GLFWwindow*) {});
   if (!opened) return opened.error();
   Window& window = **opened;
   PictureTexture texture(window.gl());

@@ -1,4 +1,4 @@
-// Frames shown a second by the window: the thesis's configurations, on a window of the text's size without a panel.
+// Frames shown per second by the window: the thesis's configurations, on a window of the text's size without a panel.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace bihive::window {
 
-/// Opens a window, shows every configuration for so many seconds, and returns ShownFrames::json(). Error: no screen, or
-/// the window was closed before the end.
+/// Opens a window, shows every configuration for `seconds` seconds, and returns ShownFrames::json(). Error: no screen,
+/// or the window was closed before the end.
 Result<std::string> measure_shown_frames(double seconds);
 
 }  // namespace bihive::window

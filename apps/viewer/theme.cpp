@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kFontSize = 15;
 
-// The places of a plain font without serifs on Linux systems; without it, ImGui's own coarse font.
+// The paths of a sans-serif font on Linux systems; without it, ImGui's own coarse font.
 constexpr const char* kFonts[] = {
     "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",

@@ -1,4 +1,4 @@
-// The look of the window: dark and plain, so that the picture stands out.
+// The theme of the window: dark and plain, so that the picture stands out.
 #pragma once
 
 #include <imgui.h>
@@ -12,8 +12,8 @@ inline const ImVec4 kAccent{0.30F, 0.62F, 0.86F, 1};
 inline const ImVec4 kBad{0.96F, 0.48F, 0.42F, 1};
 inline const ImVec4 kGood{0.55F, 0.80F, 0.55F, 1};
 
-/// Sets colours, spaces and font of the current ImGui context. `text_scale` in ImGui's units; the font is as fine as
-/// the framebuffer's pixels.
+/// Sets colours, spaces and font of the current ImGui context. `text_scale` in ImGui's units; the font has the
+/// framebuffer's resolution.
 void use_theme(double text_scale, double pixels_per_unit);
 
 }  // namespace bihive::window

@@ -63,7 +63,7 @@ void TreeTable::read(const std::string& text) {
   rows_ = {
       {"inner nodes", grouped(tree.at("inner_nodes")), grouped(wide.at("nodes"))},
       {"leaves", grouped(tree.at("leaves")), grouped(wide.at("leaves"))},
-      {"spheres a leaf", rounded(tree.at("spheres_per_leaf").at("avg")),
+      {"spheres per leaf", rounded(tree.at("spheres_per_leaf").at("avg")),
        rounded(wide.at("spheres_per_leaf").at("avg"))},
       {"  at most", grouped(tree.at("spheres_per_leaf").at("max")), grouped(wide.at("spheres_per_leaf").at("max"))},
       {"depth", rounded(tree.at("depth").at("avg")), rounded(wide.at("nodes_above_leaf").at("avg"))},

@@ -1,4 +1,4 @@
-// The numbers of both trees of the scene on show, side by side.
+// Statistics of both trees of the shown scene, side by side.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace bihive::window {
 
 class TreeTable {
  public:
-  /// Asks the viewer again if its scene or the tree's parameters have changed. For a large scene it waits until nothing
+  /// Updates if the viewer's scene or the tree's parameters have changed. For a large scene it waits until nothing
   /// moves.
   void update(const Viewer& viewer, bool settled);
-  /// Whether it shows the numbers of the scene on show.
+  /// Whether it shows the statistics of the current scene.
   bool current() const { return current_; }
   /// A new scene.
   void forget() { current_ = false; }

@@ -1,4 +1,4 @@
-// Parts of the panel that more than one of its files draws.
+// Widgets shared by the panel's files.
 #pragma once
 
 #include <imgui.h>

@@ -19,7 +19,7 @@ struct PixelSize {
 class Window {
  public:
   /// Width and height in the screen's units. Error: no screen, or no OpenGL 3.3; the message says which. `listener`
-  /// becomes the window's user pointer before ImGui adds its own callbacks behind those that `listen` sets.
+  /// becomes the window's user pointer before ImGui adds its own callbacks after those that `listen` sets.
   static Result<std::unique_ptr<Window>> open(const std::string& title, int width, int height, void* listener,
                                               void (*listen)(GLFWwindow*));
   ~Window();

@@ -1,4 +1,4 @@
-// How fast the page is in this machine's Chromium: first picture, pictures at rest, frames while the scene turns. Prints
+// Speed of the page in this machine's Chromium: first picture, pictures at rest, frames while the scene turns. Prints
 // JSON.
 //   node page_times.mjs REPETITIONS
 // Environment: BIHIVE, the program, which serves the page; CHROMIUM, the browser. Run in a folder with playwright-core.
@@ -42,7 +42,7 @@ for (let i = 0; i < repetitions; ++i) {
   await context.close();
 }
 
-// One sample a pixel in the style that both engines draw, turned by a key.
+// One sample per pixel in the style that both engines draw, turned by a key.
 const { context, page } = await visit();
 await and_settle(page, () => page.$eval('#style input[value=plain]', (input) => input.click()));
 await and_settle(page, () =>

@@ -1,4 +1,4 @@
-// How many frames a second the page shows in this machine's Chromium: what the dialog's "Frames shown" measures, saved as
+// Frames per second that the page shows in this machine's Chromium: what the dialog's "Frames shown" measures, saved as
 // its user would save it.
 //   node shown_frames.mjs FILE.json [--quick]
 // Environment: BIHIVE, the program, which serves the page; CHROMIUM, the browser. Run in a folder with playwright-core.

@@ -21,12 +21,12 @@ struct FrameMs {
   double all() const { return render + to_bytes; }
 };
 
-/// The picture's times in the order in which they were taken, its rays, and its hash.
+/// The picture's times in order of measurement, its rays, and its hash.
 struct FrameTimes {
   std::vector<FrameMs> times;
   RenderCounts rays;
   std::uint64_t hash = 0;
-  Film film;  ///< the last one; the next one takes its memory
+  Film film;  ///< the last one; the next one reuses its memory
 
   /// Medians.
   double render_ms() const;

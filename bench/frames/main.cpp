@@ -1,4 +1,4 @@
-// bihive-frames: how long whole pictures take, for docs/performance.md. Prints one JSON object.
+// bihive-frames: times of whole pictures, for docs/performance.md. Prints one JSON object.
 //   bihive-frames pictures THREADS REPETITIONS FOLDER   s1 s2 s3 at 1024 x 1024, depth 5, shadows; Tachyon in turn
 //   bihive-frames occlusion THREADS REPETITIONS FOLDER FILE
 //                                                       ambient occlusion: the molecule, a million spheres; Tachyon in
@@ -36,14 +36,16 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Wish {
+struct Request {
   int threads, repetitions;
   std::string folder, input;
 };
 
-ordered_json described(const Wish& wish) {
-  return {
-      {"threads", wish.threads}, {"repetitions", wish.repetitions}, {"target", active_target()}, {"commit", commit()}};
+ordered_json described(const Request& request) {
+  return {{"threads", request.threads},
+          {"repetitions", request.repetitions},
+          {"target", active_target()},
+          {"commit", commit()}};
 }
 
 ordered_json counts(const RenderCounts& rays) {
@@ -52,15 +54,15 @@ ordered_json counts(const RenderCounts& rays) {
 
 // One picture, in turn with Tachyon's. Both first draw one that does not count; both pictures stay in the folder.
 ordered_json beside_tachyon(const Scene& scene, const RenderSettings& settings, const std::string& name,
-                            const Wish& wish) {
-  const std::string file = wish.folder + "/" + name;
+                            const Request& request) {
+  const std::string file = request.folder + "/" + name;
   const Tachyon tachyon = value_or_fail(Tachyon::start(scene, settings, file + ".dat"));
   value_or_fail(tachyon.render_ms(file + "_tachyon.png"));
   const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
   FrameTimes ours, warm;
   std::vector<double> theirs;
   add_frame(scene, tracer, settings, warm);
-  for (int i = 0; i < wish.repetitions; ++i) {
+  for (int i = 0; i < request.repetitions; ++i) {
     add_frame(scene, tracer, settings, ours);
     theirs.push_back(value_or_fail(tachyon.render_ms()));
   }
@@ -73,10 +75,10 @@ ordered_json beside_tachyon(const Scene& scene, const RenderSettings& settings, 
           {"ratio", median(theirs) / ours.all_ms()}};
 }
 
-ordered_json pictures(const Wish& wish) {
-  ordered_json json = described(wish);
+ordered_json pictures(const Request& request) {
+  ordered_json json = described(request);
   for (const char* name : {"s1", "s2", "s3"})
-    json["scenes"][name] = beside_tachyon(*synthetic_scene(name), whole_picture(wish.threads), name, wish);
+    json["scenes"][name] = beside_tachyon(*synthetic_scene(name), whole_picture(request.threads), name, request);
   return json;
 }
 
@@ -86,7 +88,7 @@ LoadedScene file_in_style(const std::string& path, const Style& style) {
   return value_or_fail(load_scene(bytes, path, ReadOptions{}, LooksOfFile::apply, &style));
 }
 
-// The settings of a picture of the scene, which gets a camera before it, and the lights of the style around that.
+// The settings of a picture of the scene, which first gets a camera, and the style's lights around it.
 RenderSettings settings_before(const Style& style, int threads, Scene& scene) {
   RenderSettings settings = settings_from(scene.picture);
   settings.threads = threads;
@@ -95,39 +97,39 @@ RenderSettings settings_before(const Style& style, int threads, Scene& scene) {
   return settings;
 }
 
-// Pictures in the default style. Of the 128 directions a place has some 64 before it, as many as Tachyon is told to ask
-// along. Both look to any distance. Tachyon throws hard shadows, and draws neither outlines nor fog.
-ordered_json occlusion(const Wish& wish) {
+// Pictures in the default style. Of the 128 directions some 64 are in front of a shading point, as many as Tachyon is
+// told to use. Neither limits the distance. Tachyon casts hard shadows, and draws neither outlines nor fog.
+ordered_json occlusion(const Request& request) {
   const Style style = style_named(style_names().front()).value();
-  LoadedScene molecule = file_in_style(wish.input, style);
+  LoadedScene molecule = file_in_style(request.input, style);
   Scene million = *synthetic_scene("u1e6");
   million.plane.reset();
   apply_style(style, million);
 
-  ordered_json json = described(wish);
+  ordered_json json = described(request);
   for (const auto& [name, scene] : {std::pair<std::string, Scene*>{"1tii", &molecule.scene}, {"u1e6", &million}}) {
-    RenderSettings settings = settings_before(style, wish.threads, *scene);
+    RenderSettings settings = settings_before(style, request.threads, *scene);
     settings.ambient_occlusion = AmbientOcclusion{};
     settings.ambient_occlusion->directions = 128;
-    json["scenes"][name] = beside_tachyon(*scene, settings, name, wish);
+    json["scenes"][name] = beside_tachyon(*scene, settings, name, request);
   }
   return json;
 }
 
 // A frame of a film in two styles. Tachyon gets as many directions of ambient occlusion as bihive has before a surface.
-ordered_json film(const Wish& wish) {
-  ordered_json json = described(wish);
+ordered_json film(const Request& request) {
+  ordered_json json = described(request);
   for (const char* name : {"default", "plain"}) {
     const Style style = style_named(name).value();
-    LoadedScene frame = file_in_style(wish.input, style);
-    const RenderSettings settings = settings_before(style, wish.threads, frame.scene);
-    json["styles"][name] = beside_tachyon(frame.scene, settings, fmt::format("frame_{}", name), wish);
+    LoadedScene frame = file_in_style(request.input, style);
+    const RenderSettings settings = settings_before(style, request.threads, frame.scene);
+    json["styles"][name] = beside_tachyon(frame.scene, settings, fmt::format("frame_{}", name), request);
   }
   return json;
 }
 
-ordered_json thesis(const Wish& wish) {
-  ordered_json json = described(wish);
+ordered_json thesis(const Request& request) {
+  ordered_json json = described(request);
   for (const int scenario : {1, 2, 3})
     for (const int count : {64, 128, 256}) {
       ScenarioParameters parameters;
@@ -135,8 +137,8 @@ ordered_json thesis(const Wish& wish) {
       const Scene scene = scenario_scene(static_cast<Scenario>(scenario), parameters).value();
       const Tracer tracer = Tracer::build(scene.spheres, Engine::automatic).value();
       FrameTimes times, warm;
-      for (int i = 0; i < 5; ++i) add_frame(scene, tracer, thesis_frame(wish.threads), warm);
-      for (int i = 0; i < wish.repetitions; ++i) add_frame(scene, tracer, thesis_frame(wish.threads), times);
+      for (int i = 0; i < 5; ++i) add_frame(scene, tracer, thesis_frame(request.threads), warm);
+      for (int i = 0; i < request.repetitions; ++i) add_frame(scene, tracer, thesis_frame(request.threads), times);
       json["configurations"].push_back({{"scenario", scenario},
                                         {"spheres", count},
                                         {"render_ms", times.render_ms()},
@@ -146,9 +148,9 @@ ordered_json thesis(const Wish& wish) {
   return json;
 }
 
-// Every sphere moves by its own small step in each frame; the builder takes back the memory of the tree before.
-ordered_json rebuild(const Wish& wish) {
-  ordered_json json = described(wish);
+// Every sphere moves by its own small step in each frame; the builder reuses the memory of the previous tree.
+ordered_json rebuild(const Request& request) {
+  ordered_json json = described(request);
   for (const char* name : {"s1", "u1e5", "u1e6"}) {
     const SphereSet start = synthetic_scene(name)->spheres;
     std::vector<float> x(static_cast<std::size_t>(start.size())), y(x), z(x), r(x);
@@ -164,7 +166,7 @@ ordered_json rebuild(const Wish& wish) {
     std::vector<double> set_ms, build_ms;
     double first_ms = 0;
     std::int64_t held_bytes = 0;
-    for (int frame = 0; frame <= wish.repetitions; ++frame) {
+    for (int frame = 0; frame <= request.repetitions; ++frame) {
       for (std::size_t i = 0; i < x.size(); ++i) {
         x[i] += 0.1F * (random.next_float() - 0.5F) * r[i];
         y[i] += 0.1F * (random.next_float() - 0.5F) * r[i];
@@ -174,7 +176,7 @@ ordered_json rebuild(const Wish& wish) {
       const SphereSet moved = SphereSet::from_world(x, y, z, r).value();
       const double ms = set_timer.elapsed_ms();
       const Timer build_timer;
-      const auto tree = value_or_fail(builder.build(moved, {}, wish.threads));
+      const auto tree = value_or_fail(builder.build(moved, {}, request.threads));
       if (frame == 0) {
         first_ms = build_timer.elapsed_ms();
         continue;
@@ -192,22 +194,22 @@ ordered_json rebuild(const Wish& wish) {
 
 int run(int argc, const char* const* argv) {
   const std::string what = argc > 1 ? argv[1] : "";
-  const Wish wish{argc > 2 ? std::atoi(argv[2]) : 0, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "",
-                  argc > 5 ? argv[5] : ""};
+  const Request request{argc > 2 ? std::atoi(argv[2]) : 0, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "",
+                        argc > 5 ? argv[5] : ""};
   const bool known = (what == "pictures" && argc == 5) || ((what == "occlusion" || what == "film") && argc == 6) ||
                      ((what == "thesis" || what == "rebuild") && argc == 4);
-  if (!known || wish.threads < 1 || wish.repetitions < 1) {
+  if (!known || request.threads < 1 || request.repetitions < 1) {
     say_error(
         "usage: bihive-frames pictures THREADS REPETITIONS FOLDER | occlusion|film THREADS REPETITIONS FOLDER FILE | "
         "thesis|rebuild THREADS REPETITIONS");
     return kBadUsage;
   }
   try {
-    const ordered_json json = what == "pictures"    ? pictures(wish)
-                              : what == "occlusion" ? occlusion(wish)
-                              : what == "film"      ? film(wish)
-                              : what == "thesis"    ? thesis(wish)
-                                                    : rebuild(wish);
+    const ordered_json json = what == "pictures"    ? pictures(request)
+                              : what == "occlusion" ? occlusion(request)
+                              : what == "film"      ? film(request)
+                              : what == "thesis"    ? thesis(request)
+                                                    : rebuild(request);
     print(json.dump(2) + "\n");
     finish_output();
     return kSuccess;

@@ -1,4 +1,4 @@
-// Prints how long the whole pictures of s1, s2 and s3 take, as one JSON object. Built natively and as WebAssembly.
+// Prints the times of whole pictures of s1, s2 and s3 as one JSON object. Built natively and as WebAssembly.
 //   picture_time [THREADS [REPETITIONS]]
 #include <algorithm>
 #include <cinttypes>

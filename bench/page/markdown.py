@@ -28,7 +28,7 @@ def picture(name, words):
 
 
 def commands_block(report):
-    """The programs that a section's command ran, folded up."""
+    """The programs that a section's command ran, collapsed."""
     commands = list(dict.fromkeys(run["command"] for run in report["runs"]))
     words = "The program that this command ran" if len(commands) == 1 else f"The {len(commands)} programs that this command ran"
     return [f"<details><summary>{words}</summary>", "", "```sh notest", *commands, "```", "", "</details>", ""]

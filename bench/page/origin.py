@@ -1,7 +1,7 @@
-"""Where a table's numbers come from: one machine and one commit, with date and command.
+"""The origin of a table's numbers: one machine and one commit, with date and command.
 
-A report of scripts/bench names its machine and its commit; what the measured programs print names them once more. A report
-that was put together from several machines, commits or instruction sets is refused.
+A report of scripts/bench names its machine and its commit, and so does the output of the measured programs. A report merged
+from several machines, commits or instruction sets is refused.
 """
 
 VECTORS = {"avx512f": "AVX-512", "avx2": "AVX2", "sse4_1": "SSE4"}
@@ -9,17 +9,17 @@ TARGETS = {"avx512": "AVX-512", "avx2": "AVX2", "sse4": "SSE4", "neon": "NEON", 
 
 
 class Mixed(Exception):
-    """A report whose runs cannot stand in one table."""
+    """A report whose runs do not belong in one table."""
 
 
 def values_of(report, key):
-    """What the report and its runs say under `key`, without those that say nothing."""
+    """The values of the report and its runs under `key`, where present."""
     said = [report.get(key), *(run.get(key) for run in report["runs"])]
     return [value for value in said if value]
 
 
 def results_of(report, key):
-    """What the measured programs themselves printed under `key`; not every program prints it."""
+    """The values that the measured programs printed under `key`; not every program prints it."""
     results = [run["result"] for run in report["runs"]]
     return [result[key] for result in results if isinstance(result, dict) and result.get(key)]
 
@@ -43,7 +43,7 @@ def check(name, report):
 
 
 def target_of(report):
-    """The instruction set that ran, or an empty text where the programs do not say."""
+    """The instruction set that ran, or an empty text if the programs do not state it."""
     targets = results_of(report, "target")
     return targets[0] if targets else ""
 

@@ -1,4 +1,4 @@
-"""docs/performance.md and its charts, made of docs/performance/*.json alone."""
+"""Makes docs/performance.md and its charts from docs/performance/*.json."""
 
 import json
 
@@ -27,7 +27,7 @@ make bench                             # measures; writes out/bench/*.json
 scripts/performance_page out/bench     # writes this page, its charts and docs/performance/*.json
 ```
 
-Each section says its own machine, commit, date and command.
+Each section states its machine, commit, date and command.
 [performance_findings.md](performance_findings.md) says what was tried, where the time goes and why a floor is missed.
 
 Timings of two runs differ by ten percent and more. The ratios count: both programs took turns in one process (Tachyon: one

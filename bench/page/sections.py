@@ -1,4 +1,4 @@
-"""The sections of docs/performance.md: each makes lines of Markdown and charts of one part's report."""
+"""The sections of docs/performance.md: each makes lines of Markdown and charts of one report."""
 
 import re
 import statistics
@@ -65,7 +65,7 @@ def summary(report):
         said = verdict(most[0], ceiling, at_most=True)
         if most[0] is not None and most[0] <= aim:
             said = "aim met"
-        rows.append([" ".join(scenes), "bytes a sphere, at most", f"{ceiling} ({aim})", cell, cell, said])
+        rows.append([" ".join(scenes), "bytes per sphere, at most", f"{ceiling} ({aim})", cell, cell, said])
     return rows
 
 
@@ -105,7 +105,7 @@ def build_rows(results):
     return rows
 
 
-BUILD_HEADS = ["scene", "again", "from nothing", "bytes a sphere", "peak MB", "nodes", "levels", "picture ms"]
+BUILD_HEADS = ["scene", "again", "from nothing", "bytes per sphere", "peak MB", "nodes", "levels", "picture ms"]
 
 
 def build_section(title, results):
@@ -113,8 +113,8 @@ def build_section(title, results):
     lines = [
         f"### {title}",
         "",
-        "Milliseconds, with Embree's in brackets. \"Again\" builds in the memory of the tree before (in brackets: Embree's faster",
-        "way of both); \"from nothing\" takes new memory. Bytes a sphere are all that tracing needs. The peak is the memory that the",
+        "Milliseconds, with Embree's in brackets. \"Again\" builds in the memory of the previous tree (in brackets: Embree's faster",
+        "way of both); \"from nothing\" takes new memory. Bytes per sphere are all that tracing needs. The peak is the memory that the",
         "first build added at most; a peak below a megabyte is not seen. The picture has 1024 x 1024 pixels, the scene's own mirrors",
         "and plane, shadows and recursion 5; an empty field was not measured.",
         "",
@@ -123,7 +123,7 @@ def build_section(title, results):
 
 
 def rays_of_calls(results):
-    """The number of rays in a call, in words."""
+    """A sentence about the number of rays per call."""
     tiles = [result["tile"] for result in results]
     if not isinstance(tiles[0], dict):
         return f"A call has up to {max(tiles):,} rays."
@@ -147,7 +147,7 @@ def scenes(report):
         f"The nine scenes with one thread and with two, beside Embree {first['peer']['version']} in the same process. Embree's spheres are",
         "points with radii. Each kind of ray is given to Embree one at a time and in packets of 4, 8 and 16, each with and without",
         "the flag for coherent rays; the fastest way counts. Embree's rays lie ready in its own layout, packets as squares of pixels.",
-        "Our time includes the set-up, the sorting and the output of the rays. A ray of ours that leaves a sphere skips that sphere;",
+        "Our time includes the set-up, the sorting and the output of the rays. A ray of ours that starts on a sphere skips that sphere;",
         "Embree's ray starts 0.001 radii later.",
         "",
         "Scenes: s1 s2 s3 have 4096 spheres of radius 1 (grid, corners, both). mol is PDB entry 1TII, mol5 is 5 x 5 x 5 copies of it.",
@@ -176,7 +176,7 @@ def scenes(report):
         if not found:
             continue
         words = f"{threads} thread" + ("s" if threads > 1 else "")
-        lines += [f"### Rays, {words}", "", "Million rays a second, Embree's in brackets, and the ratio.", ""]
+        lines += [f"### Rays, {words}", "", "Million rays per second, Embree's in brackets, and the ratio.", ""]
         lines += table(["scene", "spheres", *(targets.TITLES[k] for k in targets.KINDS)], scene_rows(found, targets.KINDS))
         name = f"ratios_{threads}.svg"
         title = f"Times as fast as Embree, {words}: floor as a stroke, aim dashed"
@@ -243,9 +243,9 @@ def light(report):
     lines = [
         "## Ambient occlusion",
         "",
-        "Rays from what 1024 x 1024 primary rays hit, in millions a second, by Embree's best mode each. bihive's renderer asks along",
-        "directions that all places share: eight of its 64 are measured. Embree is asked along random directions, by cosine, different ones",
-        "for each place, as a path tracer would; and along the same shared ones. Floors in brackets.",
+        "Rays from the hits of 1024 x 1024 primary rays, in millions per second, by Embree's best mode each. bihive's renderer uses",
+        "directions shared by all shading points: eight of its 64 are measured. Embree gets random directions, by cosine, different ones",
+        "for each shading point, as in a path tracer; and the same shared ones. Floors in brackets.",
         "",
     ]
     heads = ["scene", "distance", "threads", "bihive, shared", "Embree, random", "Embree, shared", "bihive, random", ""]
@@ -301,8 +301,8 @@ def occlusion(report):
         "## Ambient occlusion against Tachyon",
         "",
         f"1280 x 720 pixels, 4 samples each, {result['threads']} threads, in the style `default`: ambient occlusion, soft shadows,",
-        "outlines and fog. Tachyon asks along 64 random directions a hit, bihive along those of 128 shared ones that are in front of the",
-        "surface. Columns 2 to 4 count millions of bihive's rays. Tachyon's light throws hard shadows: one shadow ray where bihive has",
+        "outlines and fog. Tachyon uses 64 random directions per hit, bihive those of 128 shared ones that are in front of the",
+        "surface. Columns 2 to 4 count millions of bihive's rays. Tachyon's light casts hard shadows: one shadow ray where bihive has",
         "six. Milliseconds are those of the picture with its bytes, and those that Tachyon prints for its tracing.",
         "",
         f"The whole program, `{programs[0]['command']}`, from file to PNG with {rays:.1f} million rays of ambient occlusion: {seconds:.2f} s,",
@@ -327,24 +327,24 @@ def thesis(report):
     lines = [
         "## The thesis's nine configurations",
         "",
-        f"1136 x 640 pixels, primary rays, shaded, {result['threads']} threads; the thesis's best was 60 frames a second, its",
+        f"1136 x 640 pixels, primary rays, shaded, {result['threads']} threads; the thesis's best was 60 frames per second, its",
         f"display's limit. The floor is {floor or 'not set'} with bytes on these vectors, the aim {aim}. A frame is the picture as radiance; \"with bytes\"",
         "turns it into those of a screen. `scripts/shown_frames` counts what a window and a page show.",
         "",
     ]
-    lines += table(["configuration", "ms", "frames a second", "with bytes", ""], rows)
-    title = "Frames a second with bytes, by scenario and spheres: floor as a stroke, aim dashed"
-    charts = {"thesis_frames.svg": svg.bar_panels(title, [("frames a second with bytes", bars)], 1)}
+    lines += table(["configuration", "ms", "frames per second", "with bytes", ""], rows)
+    title = "Frames per second with bytes, by scenario and spheres: floor as a stroke, aim dashed"
+    charts = {"thesis_frames.svg": svg.bar_panels(title, [("frames per second with bytes", bars)], 1)}
     return lines + picture("thesis_frames.svg", title), charts
 
 
-GROWTH_HEADS = ["spheres", "build ms", "ns a sphere", "bytes a sphere", "peak MB", "primary", "random"]
+GROWTH_HEADS = ["spheres", "build ms", "ns per sphere", "bytes per sphere", "peak MB", "primary", "random"]
 
 
 def growth_words(threads):
     return [
         f"Uniform spheres that fill a tenth of the cube, {threads} threads. The peak is the memory that the first build of the process",
-        "added at most: tree and working memory, not the set itself. A peak below a megabyte is not seen. Rays in millions a second.",
+        "added at most: tree and working memory, not the set itself. A peak below a megabyte is not seen. Rays in millions per second.",
         "",
     ]
 
@@ -377,7 +377,7 @@ def growth(report):
         "growth_rays.svg": svg.log_lines(
             "Rays",
             "spheres",
-            "million a second",
+            "million per second",
             [(k, [(r["spheres"], r["mray_per_s"][k]) for r in runs], False) for k in ("primary", "random")],
         ),
     }
@@ -410,10 +410,10 @@ def rebuild(report):
         "## A new tree for every frame",
         "",
         f"Every sphere moves a little in each frame; {result['threads']} threads. The columns are milliseconds of the first build, of the new",
-        "sphere set, and of a build in the memory of the tree before; and bytes a sphere of tree and working memory together.",
+        "sphere set, and of a build in the memory of the previous tree; and bytes per sphere of tree and working memory together.",
         "",
     ]
-    heads = ["scene", "spheres", "first build", "set", "build", "builds a second", "bytes held"]
+    heads = ["scene", "spheres", "first build", "set", "build", "builds per second", "bytes held"]
     return lines + table(heads, rows), {}
 
 
@@ -440,11 +440,11 @@ def film(report):
         "## Films",
         "",
         f"A Lennard-Jones melt of {found['spheres']:,} atoms, a LAMMPS dump with velocities, 1280 x 720 pixels, 4 samples each, to an MP4 file. Reading,",
-        "building, tracing and writing overlap; their milliseconds a picture stand apart. The last column is the peak of memory in MB.",
+        "building, tracing and writing overlap; their milliseconds per picture are listed separately. The last column is the peak of memory in MB.",
         "",
-        *table(["style", "pictures", "pictures a second", "read", "build", "trace", "write", "MB"], film_rows(runs["film"])),
+        *table(["style", "pictures", "pictures per second", "read", "build", "trace", "write", "MB"], film_rows(runs["film"])),
         f"One picture of the same beside Tachyon, {beside['threads']} threads: milliseconds with the picture's bytes, and those that Tachyon prints for its",
-        "tracing. Tachyon throws hard shadows and draws neither outlines nor fog; with ambient occlusion it asks along as many directions.",
+        "tracing. Tachyon casts hard shadows and draws neither outlines nor fog; with ambient occlusion it uses as many directions.",
         "",
     ]
     rows = [
@@ -457,7 +457,7 @@ def film(report):
     lines += table(["pictures", "peak MB"], rows)
     lines += [
         "Large files from disk to a PNG file, 1280 x 720 pixels, 4 samples each, in the style `plain`: seconds of the whole program, and",
-        "milliseconds of its parts; medians. The last column is the peak of memory in bytes a sphere.",
+        "milliseconds of its parts; medians. The last column is the peak of memory in bytes per sphere.",
         "",
     ]
     by_file = {}
@@ -470,7 +470,7 @@ def film(report):
         parts = [number(facts[f"{part}_ms"]) for part in ("read", "build", "render", "write")]
         peak = number(facts["peak_memory_bytes"] / facts["spheres"])
         rows.append([f"`{name}`", f"{facts['spheres']:,}", number(middle["seconds"]), *parts, peak])
-    return lines + table(["file", "spheres", "seconds", "read", "build", "render", "write", "bytes a sphere"], rows), {}
+    return lines + table(["file", "spheres", "seconds", "read", "build", "render", "write", "bytes per sphere"], rows), {}
 
 
 def is_node(run):
@@ -521,12 +521,12 @@ def gpu(report):
     lines = [
         "## The graphics processor",
         "",
-        f"One frame of 640 x 360 pixels, one sample a pixel, recursion and shadows as the scene has them, by {', '.join(sorted(devices))}.",
+        f"One frame of 640 x 360 pixels, one sample per pixel, recursion and shadows as the scene has them, by {', '.join(sorted(devices))}.",
         "`llvmpipe` is a driver that runs shaders on this machine's CPU: its figures show that the shader works, not how fast a graphics",
         "processor is. The last column is the CPU engine on the same cores.",
         "",
     ]
-    heads = ["scene", "spheres", "GPU ms", "frames a second", "Mray/s of all kinds", "CPU ms"]
+    heads = ["scene", "spheres", "GPU ms", "frames per second", "Mray/s of all kinds", "CPU ms"]
     return lines + table(heads, rows), {}
 
 

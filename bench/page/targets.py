@@ -27,7 +27,7 @@ _COLUMN.update({"mirror_shadow2": 4, "mirror_shadow3": 4})
 # Rays of ambient occlusion along shared directions: floors beside Embree's along random ones, and along the same ones.
 AMBIENT = {"s1": (3, 2), "mol": (5, 3), "u1e5": (2.5, 2), "u1e6": (4, 3)}
 
-BYTES = (19, 16.5)  # a sphere, at most
+BYTES = (19, 16.5)  # per sphere, at most
 AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4, "mirror2": 1.4, "mirror3": 1.4}
 PICTURE = (4, 8)  # times as fast as Tachyon
 # The same with ambient occlusion.

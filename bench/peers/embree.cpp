@@ -12,10 +12,10 @@
 namespace bihive::bench {
 namespace {
 
-// Embree does not know the sphere that a ray leaves. So its rays start a little later, by this share of the radius.
+// Embree does not know the sphere that a ray exits. So its rays start a little later, by this fraction of the radius.
 constexpr double kStartOfRadius = 1e-3;
 
-// Embree calls it before it takes memory, and after it has returned some.
+// Embree calls it before allocations and after deallocations.
 bool count_bytes(void* counter, ssize_t bytes, bool /*post*/) {
   static_cast<std::atomic<std::int64_t>*>(counter)->fetch_add(bytes);
   return true;

@@ -16,7 +16,7 @@
 
 namespace bihive::bench {
 
-/// The way in which Embree gets its rays: one at a time or in packets, with or without its flag for coherent rays.
+/// How Embree gets its rays: one at a time or in packets, with or without its flag for coherent rays.
 struct EmbreeMode {
   int width;  ///< 1, 4, 8 or 16
   bool coherent;
@@ -28,8 +28,8 @@ struct EmbreeMode {
 class EmbreeRays {
  public:
   virtual ~EmbreeRays() = default;
-  /// Answers every ray of the given tiles, and returns the milliseconds. First it resets the parts of a ray that Embree
-  /// changes (its end, its hit); that reset counts.
+  /// Answers every ray of the given tiles, and returns the milliseconds. First it resets the fields of a ray that
+  /// Embree changes (its end, its hit); that reset counts.
   virtual double trace_ms(RTCScene scene, bool coherent, int threads, const Tiles& tiles) = 0;
   /// Ids of closest hits (kNothing: none), or 1 and 0 for any hit, in the order of the ray set.
   virtual std::vector<std::int64_t> answers() const = 0;
@@ -49,14 +49,14 @@ class Embree {
   double build_fresh_ms();
   /// Milliseconds of building the same scene again after all spheres have changed.
   double rebuild_ms();
-  /// The memory of the scene, and 16 bytes for each sphere.
+  /// The memory of the scene, and 16 bytes per sphere.
   std::int64_t bytes() const { return scene_bytes_ + 16 * sphere_count_; }
 
   std::unique_ptr<EmbreeRays> prepare(const RaySet& set, int width) const;
   double trace_ms(EmbreeRays& rays, bool coherent, const Tiles& tiles) const {
     return rays.trace_ms(scene_, coherent, threads_, tiles);
   }
-  /// The sphere that Embree names for one ray: the one that hides it. kNothing: none.
+  /// The sphere that Embree names for one ray: its occluder. kNothing: none.
   std::int64_t closest(const Ray& ray) const;
 
  private:

@@ -19,7 +19,7 @@ std::string place(Vec3d v) {
   return fmt::format("{:.9g} {:.9g} {:.9g}", -v.x, v.y, v.z);
 }
 
-// With ambient occlusion Tachyon's light from everywhere takes the place of the ambient term.
+// With ambient occlusion, Tachyon's light from everywhere replaces the ambient term.
 std::string texture(const std::string& name, const Material& m, const RenderSettings& settings) {
   return fmt::format(
       "TexDef {} Ambient {} Diffuse {} Specular {} Opacity 1 Phong Plastic {} Phong_size {} Color {} {} {} TexFunc 0\n",
@@ -87,7 +87,7 @@ Result<Tachyon> Tachyon::start(const Scene& scene, const RenderSettings& setting
   tachyon.command_ = fmt::format("tachyon '{}' -numthreads {} {} -aasamples {} +V", path, settings.threads,
                                  settings.shadows ? "-fullshade -shade_phong" : "-mediumshade -shade_phong",
                                  settings.samples_per_pixel - 1);
-  // Its directions are those of the half before the surface.
+  // Its directions are those of the hemisphere in front of the surface.
   if (settings.ambient_occlusion)
     tachyon.command_ += fmt::format(" -add_skylight {} -skylight_samples {}", scene.ambient_light.x,
                                     settings.ambient_occlusion->directions / 2);
@@ -100,7 +100,7 @@ Result<double> Tachyon::render_ms(const std::string& picture) const {
   if (!output) return output.error();
   const std::string label = "Ray Tracing Time:";
   const std::size_t at = output->find(label);
-  if (at == std::string::npos) return Error{"Tachyon says no time", "", 0, 0, ""};
+  if (at == std::string::npos) return Error{"Tachyon prints no time", "", 0, 0, ""};
   return 1000 * std::strtod(output->c_str() + at + label.size(), nullptr);
 }
 

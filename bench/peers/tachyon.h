@@ -12,8 +12,8 @@ namespace bihive::bench {
 class Tachyon {
  public:
   /// Writes the scene to `path`: spheres, plane (without its checker), lights (without radii), camera. Samples and
-  /// ambient occlusion without a distance are those of `settings`; a surface has as many occlusion rays as face it in
-  /// the mean of ours. Error: no such program, or the file cannot be written.
+  /// ambient occlusion without a distance are those of `settings`; a surface has as many occlusion rays as the mean
+  /// number of ours in front of it. Error: no such program, or the file cannot be written.
   static Result<Tachyon> start(const Scene& scene, const RenderSettings& settings, const std::string& path);
 
   /// Milliseconds of one picture, without reading the scene, making its grid, and writing a file. `picture`: the path

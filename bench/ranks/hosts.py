@@ -33,7 +33,7 @@ def can_make():
 
 @contextlib.contextmanager
 def two(folder, gbit_per_s=None, ranks_of_each=1):
-    """Gives the words before mpirun, and its options; the hosts are gone afterwards."""
+    """Yields the arguments before mpirun, and its options; removes the hosts afterwards."""
     for host in PLACES:
         call("ip", "netns", "del", host)
         call("ip", "netns", "add", host)

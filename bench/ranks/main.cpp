@@ -32,11 +32,11 @@ struct Network {
   double ms_per_byte, latency_ms;
 };
 
-// A rank with one core: what it has done so far, in milliseconds.
+// The clocks of a rank with one core, in milliseconds.
 struct RankTimes {
-  double core = 0;             // busy with rays, its own and those of others
+  double core = 0;             // tracing rays, its own and those of others
   double network = 0;          // sending and receiving
-  double threads[2] = {0, 0};  // until when its threads draw, with the time that they wait for others
+  double threads[2] = {0, 0};  // when its threads are free, including the time that they wait for others
   std::int64_t messages = 0, bytes = 0, rounds = 0;
 
   // When a thread can begin with a tile.
@@ -44,7 +44,7 @@ struct RankTimes {
   double end() const { return std::max({ready(0), ready(1), network}); }
 };
 
-// Other ranks answer at once, and the clocks of all go on by what it would have taken.
+// Other ranks answer at once, and all clocks advance by the time that it would have taken.
 class SimulatedChannel final : public RankChannel {
  public:
   SimulatedChannel(int rank, RanksInProcess& all, const Network& network, std::vector<RankTimes>& times)
@@ -85,7 +85,7 @@ class SimulatedChannel final : public RankChannel {
     waited_ms_ = real_ms_ = 0;
     timer_ = Timer();
   }
-  /// The work of this rank for the tile, and its time with that of the waiting.
+  /// The work of this rank for the tile, and its time including waiting.
   double own_ms() const { return timer_.elapsed_ms() - real_ms_; }
   double now_ms() const { return begin_ms_ + own_ms() + waited_ms_; }
 
@@ -97,7 +97,7 @@ class SimulatedChannel final : public RankChannel {
   const Network& network_;
   std::vector<RankTimes>& times_;
   double begin_ms_ = 0, waited_ms_ = 0;
-  double real_ms_ = 0;  // of the answers here, which are the work of others
+  double real_ms_ = 0;  // spent on answers here, which are the work of others
   Timer timer_;
 };
 
@@ -107,7 +107,7 @@ struct Drawer {
   std::unique_ptr<SpreadScene::Artist> artist;
 };
 
-// The next tile goes to the thread that is free first, as the counter of the ranks has it.
+// The next tile goes to the thread that is free first, as with the counter of the ranks.
 class SimulatedPicture {
  public:
   SimulatedPicture(RanksInProcess& ranks, const RenderSettings& settings, const Network& network)
@@ -247,7 +247,7 @@ constexpr const char* kUsage =
     "bihive-ranks RANKS[,RANKS...] [--rate GBIT_PER_S] [--latency US] render INPUT [options of bihive render]";
 
 void run(int argc, const char* const* argv) {
-  if (argc < 3) fail_usage("too few words", kUsage);
+  if (argc < 3) fail_usage("too few arguments", kUsage);
   const std::vector<int> counts = counts_in(argv[1]);
   double gbit_per_s = 10, latency_us = 50;
   int at = 2;

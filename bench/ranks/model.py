@@ -1,4 +1,4 @@
-"""A model of distributed spheres on many ranks, from what the part ranks of scripts/bench measured. Ranks have one core each.
+"""A model of distributed spheres on many ranks, from measurements of `scripts/bench ranks`. Ranks have one core each.
 
 memory    a base, and bytes for each sphere of a rank: the line through the peaks of real ranks
 set-up    read, exchange and tree: core seconds for each sphere of a rank, and the exchanged bytes at the network's rate
@@ -18,7 +18,7 @@ def line_through(points):
 
 
 def on_logarithms(points, x):
-    """Between points, and beyond them as the nearest two go on: a line on logarithmic axes."""
+    """Interpolates on logarithmic axes, and extrapolates by the nearest two points."""
     points = sorted(points)
     if len(points) == 1:
         return points[0][1]

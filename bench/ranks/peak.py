@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a command, and adds its largest memory in bytes to a file, a line for each process: peak.py FILE COMMAND..."""
+"""Runs a command, and appends its peak memory in bytes to a file, a line per process: peak.py FILE COMMAND..."""
 
 import resource
 import subprocess

@@ -1,4 +1,4 @@
-"""docs/scale.md and its charts, made of docs/scale/ranks.json alone."""
+"""Makes docs/scale.md and its charts from docs/scale/ranks.json."""
 
 import math
 
@@ -35,7 +35,7 @@ one at the same time; the simulation adds up the bytes of that one, and the pict
 """
 
 MEMORY = (
-    "Leave a third free: arrays grow by doubling, so memory grows in steps. 200 million spheres on 4 ranks took up to 4.35 GB a rank ([many_machines.md](many_machines.md)), where the line says @LINE@."
+    "Leave a third free: arrays grow by doubling, so memory grows in steps. 200 million spheres on 4 ranks took up to 4.35 GB per rank ([many_machines.md](many_machines.md)), where the line says @LINE@."
 )
 
 LIMITS = """\
@@ -66,7 +66,7 @@ def memory_section(model):
         *markdown.table(["ranks", "measured, GB", "line, GB"], rows),
         MEMORY.replace("@LINE@", f"{model.memory(2e8, 4) / 1e9:.1f}"),
         "",
-        "The model, in GB a rank:",
+        "The model, in GB per rank:",
         "",
         *markdown.table(
             ["spheres", *(f"{ranks:,} ranks" for ranks in RANKS)],
@@ -173,7 +173,7 @@ def simulation_section(model):
         "",
         f"Counted with {ranks[-1]:,} ranks; of a rank the mean and the largest:",
         "",
-        *markdown.table(["scene, rays", "rays", "ranks a ray", "bytes a ray", "messages", "messages of a rank", "MB of a rank"], most_rows),
+        *markdown.table(["scene, rays", "rays", "ranks per ray", "bytes per ray", "messages", "messages of a rank", "MB of a rank"], most_rows),
         "Milliseconds of the picture, with 10 Gbit/s and 50 us; the first column is one process with all spheres, on one core:",
         "",
         *markdown.table(["scene, rays", "one process", *(f"{count:,} ranks" if count > 1 else "1 rank" for count in ranks)], growth_rows),
@@ -200,7 +200,7 @@ def model_section(model):
     ]
     for look in ("primary", "default"):
         lines += [
-            f"The picture (*{look}*), in seconds: the simulation with {number_of(model.spheres)} spheres, times the work of a ray in a tree of so many spheres as a rank has, over that in the "
+            f"The picture (*{look}*), in seconds: the simulation with {number_of(model.spheres)} spheres, times the work of a ray in a tree of a rank's number of spheres, over that in the "
             "smaller tree, both by one process. Beyond the simulated ranks it goes on as the last two points do.",
             "",
             *markdown.table(heads, rows(lambda spheres, ranks, look=look: f"{model.picture_ms(look, spheres, ranks) / 1000:,.2f}")),
@@ -216,7 +216,7 @@ def summary(model):
     """How many ranks a set needs."""
     fits = (16e9 * 2 / 3 - model.memory_base) / model.memory_of_sphere
     return (
-        f"**In short**: take so many ranks that the set fits into their memory. A rank with 16 GB takes some {fits / 1e6:,.0f} million spheres, with a third left free; so 10^9 spheres need "
+        f"**In short**: take enough ranks for the set to fit into their memory. A rank with 16 GB takes some {fits / 1e6:,.0f} million spheres, with a third left free; so 10^9 spheres need "
         f"{math.ceil(1e9 / fits)} such ranks, 10^10 {math.ceil(1e10 / fits)}, 10^12 {math.ceil(1e12 / fits):,}. More ranks make the picture faster up to some hundred ranks."
     )
 

@@ -3,11 +3,12 @@
  * The answers have the same bits as those of the C++ library, for any number of threads (docs/precision.md).
  *
  * Contract of every function:
- * - Arrays belong to the caller, who sees to their lengths; nothing refers to them after the return. `xyz` stands for
- * x, y, z of one place after the other. Ids count from 0; -1 is none.
- * - `threads`: 0 takes all that the machine has.
+ * - Arrays belong to the caller, who sees to their lengths; nothing refers to them after the return. `xyz` means x, y,
+ * z of one point after the other. Ids count from 0; -1 is none.
+ * - `threads`: 0 uses all that the machine has.
  * - A function that returns int returns 0, or 1 after a failure; bihive_error_text() then says what was wrong, where,
- * and what to do. Its outputs are then undefined, but a handle to be made is NULL. Nothing is thrown, printed or ended.
+ * and what to do. Its outputs are then undefined, but a handle to be made is NULL. Nothing throws, prints or ends the
+ * process.
  * - A handle is freed by its own *_free, which takes NULL too, when no thread uses it any more. Until then any number
  * of threads may use one handle at the same time: queries of a tree run beside each other, and pictures of a scene are
  * drawn one after the other.
@@ -38,7 +39,7 @@ BIHIVE_API const char* bihive_error_text(void);
 
 typedef struct bihive_tree bihive_tree;
 
-/* Copies `count` spheres, and builds their tree. Places and radii are rounded once, to single precision of the set's
+/* Copies `count` spheres, and builds their tree. Centres and radii are rounded once, to single precision of the set's
  * extent. Failures: a number that is not finite or beyond 3.4e38, a negative radius, not enough memory. */
 BIHIVE_API int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree);
 BIHIVE_API void bihive_tree_free(bihive_tree* tree);
@@ -67,7 +68,7 @@ BIHIVE_API int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays,
 
 /* ---- Points ---- */
 
-/* Where distances end: at a sphere's surface, below 0 inside of it, or at its centre. */
+/* The end point of a distance: a sphere's surface (negative inside), or its centre. */
 enum { BIHIVE_SURFACE = 0, BIHIVE_CENTRE = 1 };
 
 /* The `most` nearest spheres of each point, none farther than `within` (INFINITY: any), by distance, then id: entries
@@ -89,20 +90,21 @@ BIHIVE_API void bihive_lists_free(bihive_lists* lists);
 BIHIVE_API int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
                              int distance_to, const uint8_t* mask, int threads, bihive_lists** lists);
 
-/* Every sphere that ray i hits, by t, then id; t is where the ray enters it (where it leaves, if it starts inside). */
+/* Every sphere that ray i hits, by t, then id; t is where the ray enters it (where it exits, if it starts inside). */
 BIHIVE_API int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int threads, bihive_lists** lists);
 
 /* ---- Pictures ---- */
 
 typedef struct bihive_scene bihive_scene;
 
-/* A scene of arrays. `rgb`: three bytes a sphere, as on the screen (sRGB); NULL: the style's colour. `style`: one of
+/* A scene of arrays. `rgb`: three bytes per sphere, as on the screen (sRGB); NULL: the style's colour. `style`: one of
  * those that `bihive styles` lists; NULL: "default". At least one sphere. */
 BIHIVE_API int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb, int64_t count,
                                 const char* style, bihive_scene** scene);
 
 /* A scene of the bytes of a file: a scene file (JSON), or spheres of any format that bihive reads. `name` is the
- * file's, for messages, and tells the format where the bytes do not. `style` as above; a scene file's own look stays.
+ * file's, for messages, and determines the format if the bytes do not. `style` as above; a scene file keeps its own
+ * appearance.
  */
 BIHIVE_API int bihive_scene_from_bytes(const char* bytes, size_t size, const char* name, const char* style,
                                        bihive_scene** scene);
@@ -123,7 +125,7 @@ BIHIVE_API int bihive_scene_set(bihive_scene* scene, const char* name, const cha
 
 /* Draws the picture of `bihive render`: width * height * 4 bytes to `rgba`, row by row from the top; red, green and
  * blue are not multiplied by the opacity, which is 255 unless the scene has a transparent background. Width and height:
- * 1 to 65535. `samples` a pixel: 1 to 4096, 0: the scene's. */
+ * 1 to 65535. `samples` per pixel: 1 to 4096, 0: the scene's. */
 BIHIVE_API int bihive_render(bihive_scene* scene, int width, int height, int samples, int threads, uint8_t* rgba);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-// The text of the last failure, and the border that no exception crosses.
+// The text of the last failure, and the boundary that no exception crosses.
 #pragma once
 
 #include <exception>
@@ -12,7 +12,7 @@ namespace bihive::c {
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
 
-/// Notes the text for bihive_error_text() of this thread, without memory from the heap; cuts it if it is very long.
+/// Stores the text for bihive_error_text() of this thread, without heap memory; truncates very long ones.
 int failed(const char* text) noexcept;
 int failed(const Error& error);
 const char* last_error() noexcept;

@@ -25,14 +25,14 @@
 #include "c_errors.h"
 #include "c_spheres.h"
 
-/// A scene as it was read, its tree, and what its user has set since.
+/// A scene as read, its tree, and its user's settings.
 struct bihive_scene {
   bihive::LoadedScene loaded;
   std::optional<bihive::Tracer> tracer;  // refers to `loaded`
-  bihive::Scene as_read;                 // without the spheres: what each picture begins with
+  bihive::Scene as_read;                 // without the spheres: the start of each picture
   bihive::Overrides picture;
   std::vector<std::pair<std::string, std::string>> settings;  // ids and values of the other options, in their order
-  std::mutex in_use;                                          // each picture places the camera and the lights anew
+  std::mutex in_use;                                          // each picture places the camera and the lights again
 };
 
 namespace bihive::c {
@@ -52,7 +52,7 @@ Result<Style> style_or_default(const char* name) {
   return style_named(name == nullptr ? style_names().front() : std::string_view(name));
 }
 
-// The parts of a scene that prepare_picture() changes where no setting is of the spheres.
+// The members of a scene that prepare_picture() changes if no setting affects spheres.
 void put_light(const Scene& from, Scene& to) {
   to.lights = from.lights;
   to.camera = from.camera;
@@ -95,8 +95,8 @@ bool is_off(const RequestOption<PictureRequest>& row, const char* value) {
   return true;
 }
 
-// An option that is no parameter of the picture. NULL takes it back: of the actions on spheres all, for each acts on
-// what the ones before have selected.
+// An option that is not a parameter of the picture. NULL resets it; for actions on spheres it resets all, because each
+// acts on what earlier ones have selected.
 void set_option(bihive_scene& scene, const std::string& id, const char* value) {
   const RequestOption<PictureRequest>* const row = picture_option(id);
   const auto before = scene.settings;
@@ -219,7 +219,7 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     std::vector<std::string> warnings;
     const CollectedWarnings unsaid(warnings);
 
-    // The request, and its scene: that which was read, or a copy that settings of spheres change.
+    // The request, and its scene: the one read, or a copy changed by settings of spheres.
     PictureRequest request = request_of(*scene);
     request.picture.set("width_px", width);
     request.picture.set("height_px", height);

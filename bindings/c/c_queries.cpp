@@ -29,7 +29,7 @@ struct bihive_lists {
 namespace bihive::c {
 namespace {
 
-// Rays are handed to threads in such parts.
+// Number of rays per chunk.
 constexpr std::int64_t kRaysPerPart = 1 << 17;
 
 bool ready(const bihive_tree* tree, const bihive_rays* rays) {
@@ -67,7 +67,7 @@ class Columns {
   RaySpan span_;
 };
 
-// Calls answer(rays, first, part) for one part of the rays after the other, on threads.
+// Calls answer(rays, first, chunk) for all chunks of the rays, on threads.
 template <class Answer>
 int for_parts(const bihive_rays& rays, int threads, const Answer& answer) {
   const std::int64_t parts = (rays.count + kRaysPerPart - 1) / kRaysPerPart;
@@ -80,7 +80,7 @@ int for_parts(const bihive_rays& rays, int threads, const Answer& answer) {
       no_memory = true;
     }
   });
-  return no_memory ? failed("not enough memory for so many rays; trace fewer at a time") : kDone;
+  return no_memory ? failed("not enough memory for this many rays; trace fewer at a time") : kDone;
 }
 
 int check_point_arguments(const bihive_tree* tree, const double* xyz, std::int64_t count, int distance_to,
@@ -214,7 +214,7 @@ int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int thread
       all_hits(*tree->tree, part, of_part[static_cast<std::size_t>(number)]);
     });
     if (done != kDone) return done;
-    // The hits of each part are in order: count them for each ray, and put them one behind the other.
+    // The hits of each chunk are in order: count them for each ray, and concatenate them.
     auto made = std::make_unique<bihive_lists>();
     made->begin.assign(static_cast<std::size_t>(rays->count) + 1, 0);
     std::int64_t first = 0;

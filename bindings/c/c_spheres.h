@@ -1,4 +1,4 @@
-// The spheres that callers of bihive.h give.
+// The spheres that callers of bihive.h pass.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace bihive::c {
 
-/// The set of `count` spheres, read where their numbers lie.
+/// The set of `count` spheres, read in place.
 inline Result<SphereSet> spheres_of(const double* xyz, const double* radii, std::int64_t count) {
   const auto column = [count](const double* first, std::ptrdiff_t step) {
     return NumbersView{first, step * static_cast<std::ptrdiff_t>(sizeof(double)), static_cast<std::size_t>(count),

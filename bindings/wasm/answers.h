@@ -1,4 +1,4 @@
-// How the C++ module answers JavaScript: JSON texts. After a failure {"error": {"message", "file", "line", "column",
+// Answers of the C++ module to JavaScript: JSON texts. After a failure {"error": {"message", "file", "line", "column",
 // "hint"}}.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace bihive::page {
 
-/// Nobody knows this folder of the user's files but the module and its worker: answers leave it out.
+/// Only the module and its worker know this folder of the user's files: answers leave it out.
 inline constexpr const char* kFolder = "/files-of-the-user/";
 
 std::string text_of(const nlohmann::ordered_json& json);

@@ -13,7 +13,7 @@ struct Control {
   std::string_view id, label;
 };
 
-// The labels in web/index.html of controls that are no parameters of a picture (settings/parameter.h).
+// The labels in web/index.html of controls that are not parameters of a picture (settings/parameter.h).
 constexpr std::array kControls{Control{"aperture", "Aperture"},
                                Control{"background", "Background"},
                                Control{"colour_by", "Colour by"},

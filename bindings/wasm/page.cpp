@@ -41,7 +41,7 @@ std::string done_or(const Status& status) {
 // JavaScript's largest whole number; memory allows fewer spheres.
 constexpr double kMostSpheres = 9007199254740991;
 
-// What colours the spheres: for the words beside the controls. A continuous map has a range.
+// The attributes that colour the spheres, for the text beside the controls. A continuous map has a range.
 ordered_json coloured_by_json(const Scene& scene) {
   ordered_json list = ordered_json::array();
   for (const ColourBy& how : scene.coloured_by) {

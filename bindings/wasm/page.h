@@ -23,13 +23,13 @@ class Page {
   // The scene. Answers: {"facts": {...}, "settings": {...}, "look": {...}, "coloured_by": [...]}. `how`: the
   // JSON of io/reading_settings.h.
 
-  /// Where the caller puts the user's files (Emscripten's WORKERFS), with a slash at its end. Answers leave it out.
+  /// The folder of the user's files (Emscripten's WORKERFS), with a slash at its end. Answers leave it out.
   static std::string folder();
   /// A file there, and its trajectory, or an empty text. Both must stay until the next scene is loaded: frames are read
-  /// when they are wanted.
+  /// on request.
   std::string load(const std::string& name, const std::string& trajectory, const std::string& how);
-  /// `count` 0: the scenario's own number of spheres. Of `how` the radii count: the rest is for files, and may come
-  /// from the page's address.
+  /// `count` 0: the scenario's own number of spheres. Only the radii of `how` matter: the rest is for files, and may
+  /// come from the page's address.
   std::string load_built_in(const std::string& name, double count, const std::string& how);
 
   // The player of a file with several frames. Times are of any steady clock, in milliseconds.
@@ -41,7 +41,7 @@ class Page {
   void go_to_frame(double frame);
   void set_frames_per_second(double speed) { player_.set_frames_per_second(speed); }
   void set_loops(bool loops) { player_.set_loops(loops); }
-  /// Moves on where it is time for it, and reads and shows the frame that is wanted.
+  /// Advances when it is time, and reads and shows the requested frame.
   std::string continue_playing(double now_ms);
 
   // The settings, as JSON texts (viewer/viewer_json.h). set() leaves settings unchanged that its text does not name.
@@ -62,7 +62,7 @@ class Page {
   std::string choices() const;
   std::string look() const;
   /// {"counts": [spheres of each row], "coloured_by": [{"attribute", "range": [min, max]}]}; categories have no range.
-  /// An error has {"row": the row to blame, or -1} besides.
+  /// An error also has {"row": the faulty row, or -1}.
   std::string set_look(const std::string& changes);
 
   // The graphics processor: WebGL2's current context.

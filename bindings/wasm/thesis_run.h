@@ -21,10 +21,10 @@ class ThesisRun {
  public:
   explicit ThesisRun(bool gpu) : gpu_(gpu) {}
 
-  /// All rounds of a configuration, then those of the next. Pictures are smaller where the run would take more than ten
-  /// minutes, of a quick run one. `saved`: the result of an earlier run that was not completed, or any other text; its
-  /// measurements are kept if it is one of the same plan and engine. Answers {"width_px", "height_px", "resumed":
-  /// configurations that are done}.
+  /// All rounds of a configuration, then those of the next. Pictures are smaller if the run would take more than ten
+  /// minutes, a quick run more than one. `saved`: the result of an earlier run that was not completed, or any other
+  /// text; its measurements are kept if it is one of the same plan and engine. Answers {"width_px", "height_px",
+  /// "resumed": configurations that are done}.
   std::string begin(bool quick, const std::string& saved);
   /// Instead: one round of all configurations, in pictures with which a pass takes at most `seconds`, about. Further
   /// passes draw pictures of the same size; their rounds follow those of the passes before. Answers {"width_px",
@@ -34,8 +34,8 @@ class ThesisRun {
   /// {"finished", "done", "seconds_left", "configurations_done", "configurations", "scenario", "spheres", "round_ms"
   /// (once it is finished: the last round of all configurations)}.
   std::string step();
-  /// The results so far, of complete passes alone: {"result": JSON text, "charts": [SVG text]}; of a complete run also
-  /// the fitted costs of a ray's steps, which takes a second or two. `device`: a JSON object with "device", words, and
+  /// The results of complete passes: {"result": JSON text, "charts": [SVG text]}; of a complete run also the fitted
+  /// costs of a ray's steps, which takes a second or two. `device`: a JSON object with "device", a description, and
   /// other texts by name.
   std::string so_far(const std::string& device) const;
 
@@ -48,7 +48,7 @@ class ThesisRun {
   std::shared_ptr<FrameRateRun> run_, earlier_;  // earlier_: all complete passes
 };
 
-/// Frames shown a second (thesis/shown_frames.h). The caller draws a picture, shows it, and says when it is shown.
+/// Frames shown per second (thesis/shown_frames.h). The caller draws a picture, shows it, and says when it is shown.
 class ShownFramesRun {
  public:
   std::string begin(double seconds);

@@ -1,3 +1,4 @@
 # A molecule as it comes
-# `demo` is the molecule that the program brings along, the HIV-1 protease with a drug in it (PDB 1HPV). The name of a file stands in its place.
+# `demo` is the molecule that comes with the program, the HIV-1 protease with a drug in it (PDB 1HPV). Replace it by the
+# name of a file.
 bihive render demo -o 01-a-molecule.png --size 480x360

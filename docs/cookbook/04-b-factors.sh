@@ -1,4 +1,4 @@
 # Numbers as colours
-# Any number that a file holds can be the colour; the legend says what it means. `bihive info demo --attributes` lists the names.
+# Any number in a file can be the colour; the legend explains it. `bihive info demo --attributes` lists the names.
 bihive render demo -o 04-b-factors.png --size 480x360 --projection orthographic --no-water \
   --colour-by b_factor:magma:10,60 --legend --title 'Where the protein moves'

@@ -1,5 +1,5 @@
 # A table with names of its own
-# `--columns` says which column plays which part. The columns that are left over can be colours.
+# `--columns` names the column for each quantity. The remaining columns can be colours.
 cat >tanks.csv <<'END'
 east,north,height,size,full
 0,0,0,1.0,0.9

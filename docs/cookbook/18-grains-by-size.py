@@ -1,5 +1,6 @@
 # Grains by size
-# Balls of many sizes fall into a box, one on top of the others: each new one takes the lowest of some free places. `Tree.overlaps` says what is in the way.
+# Balls of many sizes fall into a box, one on top of the others: each new one takes the lowest of some free positions.
+# `Tree.overlaps` finds what is in the way.
 import numpy as np
 import bihive as bh
 

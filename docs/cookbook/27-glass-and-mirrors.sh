@@ -1,5 +1,5 @@
 # Glass, mirrors and a chequered floor
-# A scene file says everything itself: camera, lights, materials, floor.
+# A scene file states everything itself: camera, lights, materials, floor.
 cat >still.json <<'END'
 {"bihive_scene": 2,
  "camera": {"eye": [0, 2.2, 11], "look_at": [0, 0.1, 0], "fov_deg": 26},

@@ -150,7 +150,7 @@ class Crop(CameraTest):
         for crop in ["", "1,2,3", "0,0,0,9", "9,0,5,9", "-1,0,5,5", "a,0,5,5", "0,0,1.5,5", "0,0,65536,5", "1,2,3,4,5"]:
             self.assertIn("--crop:", self.fail_usage("render", "demo", "-o", "a.png", "--crop=" + crop))
         said = self.fail_usage("render", "demo", "-o", "a.png", "--size", "90x60", "--crop", "0,0,91,60")
-        self.assertIn("--crop ends outside of the picture of 90 x 60 pixels; ", said)
+        self.assertIn("--crop ends outside the picture of 90 x 60 pixels; ", said)
 
 
 if __name__ == "__main__":

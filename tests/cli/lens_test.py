@@ -39,9 +39,9 @@ class DepthOfField(LensTest):
         self.assertEqual(self.picture(*lens, "--focus", "all"), self.picture(*lens, "--focus", "15"))
         self.write("lens.json", SCENE % (', "aperture": 1.5, "focus": "x > 1"', 9))
         self.assertEqual(self.picture("lens.json", *SMALL), near)
-        self.assertIn("--focus: the selection means no sphere", self.fail_usage("render", *lens, "-o", "a.png", "--focus", "x > 9"))
+        self.assertIn("--focus: the selection matches no sphere", self.fail_usage("render", *lens, "-o", "a.png", "--focus", "x > 9"))
         behind = ["--eye", "0,0,-20", "--look-at", "0,0,-30"]
-        self.assertIn("not before the camera", self.fail_usage("render", *lens, *behind, "-o", "a.png", "--focus", "all"))
+        self.assertIn("not in front of the camera", self.fail_usage("render", *lens, *behind, "-o", "a.png", "--focus", "all"))
         self.write("bad.json", SCENE % (', "aperture": 1.5, "focus": "name"', 9))
         self.assertIn("bad.json: /camera/focus: ", self.run_bihive("render", "bad.json", "-o", "a.png").stderr)
 

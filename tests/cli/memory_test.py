@@ -106,10 +106,10 @@ class Memory(ProgramTest):
         if "BIHIVE_VIEW" not in os.environ:
             self.skipTest("bihive-view was not built")
         self.assertIn("the tree of 1,631 spheres would take about", self.refused(20000, "view", "demo"))
-        self.assertIn("so many spheres would take", self.refused(20000, "view", "scenario1"))
+        self.assertIn("this many spheres would take", self.refused(20000, "view", "scenario1"))
 
     def test_a_scenario_and_a_picture(self):
-        self.assertIn("so many spheres would take", self.refused(20000, "info", "scenario1"))
+        self.assertIn("this many spheres would take", self.refused(20000, "info", "scenario1"))
         whole = ["render", "four-spheres", "-o", "a.png", "--size", "1000x1000", "--view", "distance"]
         self.assertIn("so large a picture would take about 18 MB", self.refused(1000000, *whole))
 

@@ -124,7 +124,7 @@ class Program(OnRanks):
         done = self.run_ranks(3, "sh", "-c", OWN_SIZE, BIHIVE_MPI, "-o", "a.png")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(self.errors(done), ["bihive: error: the command line of rank 2 is not that of rank 0; give all ranks the same "
-                                             "program and the same words"])
+                                             "program and the same arguments"])
         self.assertFalse(os.path.exists(self.path("a.png")))
 
     def test_ranks_of_other_builds(self):

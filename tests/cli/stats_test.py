@@ -125,7 +125,7 @@ class Stats(ProgramTest):
         second = next(number for number, line in enumerate(lines) if line.startswith("wide tree"))
         reference, wide = lines[:second], lines[second:]
         self.assertIn("the engine's choice", wide[0])
-        rows = "nodes leaves levels".split() + ["fill of nodes", "fill of leaves", "overlap of siblings", "bytes a sphere"]
+        rows = "nodes leaves levels".split() + ["fill of nodes", "fill of leaves", "overlap of siblings", "bytes per sphere"]
         for name in rows:
             self.assertIn(name, [line[:26].strip() for line in wide])
         values = {line[:26].strip(): line[26:].strip() for line in reference[1:]}

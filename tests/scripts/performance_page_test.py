@@ -96,7 +96,7 @@ class PerformancePageTest(unittest.TestCase):
         rows = {line.split("|")[2].strip(): line for line in page.splitlines() if line.startswith("| s1 s2 s3 mol")}
         self.assertTrue(rows["primary"].endswith("| met |"), rows["primary"])
         self.assertTrue(rows["random"].endswith("| aim met |"), rows["random"])
-        self.assertTrue(rows["bytes a sphere, at most"].endswith("| met |"))
+        self.assertTrue(rows["bytes per sphere, at most"].endswith("| met |"))
 
     def test_frames_of_the_thesis_count_with_their_bytes(self):
         """The floor is that of the instruction set: 200 frames a second are enough on AVX2 and too few on AVX-512."""

@@ -153,7 +153,7 @@ TEST(CameraPath, BadKeysAreRefusedWithTheirPlace) {
       {R"({"keys": [{"zoom": 1}]})", "/keys/0: expected the word \"picture\""},
       {R"({"keys": [{"picture": -1}]})", "/keys/0/picture: expected a whole number"},
       {R"({"keys": [{"picture": 0.5}]})", "/keys/0/picture"},
-      {R"({"keys": [{"picture": 1}, {"picture": 1}]})", "/keys/1/picture: expected a picture behind"},
+      {R"({"keys": [{"picture": 1}, {"picture": 1}]})", "/keys/1/picture: expected a picture after"},
       {R"({"keys": [{"picture": 0, "turn": [1, 2]}]})", "/keys/0/turn: expected [azimuth"},
       {R"({"keys": [{"picture": 0, "turn": [1, 2, 1e9]}]})", "/keys/0/turn"},
       {R"({"keys": [{"picture": 0, "eye": [1, 2, 3]}]})", "/keys/0: expected picture, turn, zoom or look_at"},

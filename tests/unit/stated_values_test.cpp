@@ -50,7 +50,7 @@ TEST(StatedValues, GivesNumbersListsAndPrint) {
 TEST(StatedValues, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(message_of(StatedValues::parse("{", "file.json")), "file.json: it is not valid JSON");
   EXPECT_EQ(message_of(StatedValues::parse("[]", "file.json")),
-            "file.json: /values: expected an object with one entry a value");
+            "file.json: /values: expected an object with one entry per value");
   EXPECT_EQ(message_of(with(R"("a": {"value": {}, "sentence": ""})")),
             "file.json: /values/a/value: expected a number, a list of numbers, or a text");
   EXPECT_EQ(message_of(with(R"("a": {"value": 1})")),

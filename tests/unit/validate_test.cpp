@@ -57,7 +57,7 @@ TEST_F(Validate, FindsSpheresLostOrDoubled) {
   EXPECT_WRONG("another leaf", tree.sphere_ids[0] = tree.sphere_ids[1]);
   EXPECT_WRONG("does not exist", tree.sphere_ids[0] = 200);
   EXPECT_WRONG("does not exist", tree.sphere_ids[0] = -1);
-  EXPECT_WRONG("entry a sphere", tree.sphere_ids.pop_back());
+  EXPECT_WRONG("one entry per sphere", tree.sphere_ids.pop_back());
   EXPECT_WRONG("in no leaf", --tree.nodes[first_of(tree, NodeKind::leaf)].sphere_count);
   EXPECT_WRONG("outside the index array", tree.nodes[first_of(tree, NodeKind::leaf)].sphere_count = -1);
   EXPECT_WRONG("outside the index array", tree.nodes[first_of(tree, NodeKind::leaf)].first = 199;

@@ -426,7 +426,7 @@ TEST(Viewer, what_does_not_fit_into_memory_is_refused_and_the_scene_stays) {
     EXPECT_THAT(result.error().message, HasSubstr("of memory, and BIHIVE_MEMORY allows 20 kB"));
   };
   expect_refused(viewer.load_built_in("demo"), "the tree of 1,631 spheres would take about");
-  expect_refused(viewer.load_built_in("scenario1"), "so many spheres would take about");
+  expect_refused(viewer.load_built_in("scenario1"), "this many spheres would take about");
   expect_refused(viewer.picture(100, 100, 1), "so large a picture would take about 180 kB");
   EXPECT_EQ(viewer.facts().name, "four-spheres");
 

@@ -1,4 +1,4 @@
-// Asks for the file of the user's own that a link was made for.
+// Asks for the user's own file that a link was made for.
 import { element } from './dom';
 import type { State } from './link';
 

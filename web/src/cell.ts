@@ -20,7 +20,7 @@ export class CellControls {
     for (const [i, input] of this.copies.entries()) input.placeholder = String(copies[i]);
   }
 
-  /** What the user is writing stays. */
+  /** Keeps what the user is typing. */
   show({ engine, replicate }: Settings): void {
     for (const input of this.copies) input.disabled = engine === 'gpu';
     if (this.copies.includes(document.activeElement as HTMLInputElement)) return;

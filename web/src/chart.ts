@@ -1,6 +1,6 @@
 // The library's charts (SVG texts) on the page, and as one picture.
 
-/** Its style sheet is left out: the page's own knows the user's colours, and the page's policy forbids others. */
+/** Its style sheet is removed: the page's own has the user's colours, and the page's policy forbids others. */
 export function chart_element(text: string): SVGSVGElement {
   const bare = text.replace(/<style>.*?<\/style>/s, '');
   const parsed = new DOMParser().parseFromString(bare, 'image/svg+xml').documentElement;
@@ -9,7 +9,7 @@ export function chart_element(text: string): SVGSVGElement {
 
 const copied = ['fill', 'stroke', 'stroke-width', 'stroke-linejoin', 'font-family', 'font-size', 'font-weight', 'color', 'paint-order'];
 
-// A copy that needs no style sheet and looks the same.
+// An identical copy that needs no style sheet.
 function with_looks(chart: SVGSVGElement): SVGSVGElement {
   const copy = chart.cloneNode(true) as SVGSVGElement;
   const originals = [chart, ...chart.querySelectorAll('*')];

@@ -1,4 +1,4 @@
-// The panel's controls of the look that are for all spheres: lights, lines between groups, and colours by an attribute.
+// The panel's appearance controls for all spheres: lights, lines between groups, and colours by an attribute.
 import { element } from './dom';
 import type { ColouredBy, Facts, Look } from './protocol';
 import { colour_maps } from './settings';
@@ -6,7 +6,7 @@ import { colour_maps } from './settings';
 const presets = ['studio', 'cloudy', 'headlight', 'thesis'];
 const grey = '#808080';
 
-/** The parts of ATTR:MAP:MIN,MAX:log, as `bihive render --colour-by` takes it. */
+/** The fields of ATTR:MAP:MIN,MAX:log, as `bihive render --colour-by` takes it. */
 interface ColourBy {
   attribute: string;
   map: string;
@@ -114,7 +114,7 @@ export class ColourControls {
     this.nan_colour.value = /^#[0-9a-f]{6}$/i.test(look.nan_colour) ? look.nan_colour : grey;
   }
 
-  /** The range that the library took stands in the empty fields. */
+  /** The empty fields show the range that the library chose. */
   show_ranges(coloured_by: ColouredBy[]): void {
     const range = coloured_by.find(({ attribute }) => attribute === this.attribute.value)?.range;
     this.min.placeholder = range ? String(+range[0].toPrecision(4)) : '';

@@ -1,4 +1,4 @@
-// The panel's controls for settings. They show the settings, and report the user's changes.
+// The panel's controls for settings: they show them, and report the user's changes.
 import { CellControls } from './cell';
 import { element, RadioGroup } from './dom';
 import { LensControls } from './lens';
@@ -70,12 +70,12 @@ export class Controls {
     this.parameters.build(parameters);
   }
 
-  /** What the scene has. */
+  /** The scene's properties. */
   show_facts(facts: Facts): void {
     this.cell.show_facts(facts);
   }
 
-  /** Shows settings that come from the worker; a slider that is being dragged is left alone. */
+  /** Shows settings that come from the worker; a slider being dragged is left alone. */
   show(settings: Settings): void {
     this.shown = settings;
     this.engine.value = settings.engine;

@@ -1,6 +1,6 @@
 // The measuring device, for the files that go from a page to `bihive thesis --device`.
 
-let model = ''; // of a phone; browsers that know it tell
+let model = ''; // a phone's, from browsers that report it
 interface AgentData {
   getHighEntropyValues?(names: string[]): Promise<{ model?: string }>;
 }
@@ -9,7 +9,7 @@ void (navigator as { userAgentData?: AgentData }).userAgentData
   .then((values) => (model = values.model ?? ''))
   .catch(() => undefined);
 
-/** A JSON text: the device in words, and its facts by name. */
+/** A JSON text: a description of the device, and its facts by name. */
 export function describe_device(gpu: string, thread_count: number, version: string): string {
   const threads = `${thread_count} threads`;
   const gpu_name = gpu || 'no WebGL2';

@@ -1,16 +1,17 @@
-// The page inside of another one: <bihive-viewer> (web/viewer) shows it in a frame, without its panel, and hears from it.
+// The page inside another one: <bihive-viewer> (web/viewer) shows it in a frame, without its panel, and gets messages
+// from it.
 
-/** What the frame tells the page around it; `facts`: name, format, number of spheres, frames. */
+/** Messages of the frame to the page around it; `facts`: name, format, number of spheres, frames. */
 export type Told = { bihive: 'loaded'; name: string; format: string; spheres: number; frames: number } | { bihive: 'failed'; message: string };
 
 const asked = new URLSearchParams(location.search).get('embed');
 
-/** Hides what belongs to a page of its own; `?embed=panel` keeps the panel. */
+/** Hides what belongs to a separate page; `?embed=panel` keeps the panel. */
 export function start_embedded(): void {
   if (asked !== null) document.documentElement.classList.add(asked === 'panel' ? 'embedded' : 'embedded_alone');
 }
 
-/** To a page of the same origin alone: names of files are nobody else's business. */
+/** To a page of the same origin alone: names of files are private. */
 export function tell(told: Told): void {
   if (asked !== null && parent !== window) parent.postMessage(told, location.origin);
 }

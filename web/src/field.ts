@@ -4,7 +4,7 @@ import { element } from './dom';
 export class Field<T> {
   private readonly input: HTMLInputElement;
 
-  /** `words`: a value as text; `parse` gives undefined where a text is no value. */
+  /** `words`: a value as text; `parse` gives undefined if a text is not a value. */
   constructor(
     id: string,
     private readonly words: (value: T) => string,
@@ -19,7 +19,7 @@ export class Field<T> {
     });
   }
 
-  /** What the user is writing stays. */
+  /** Keeps what the user is typing. */
   set value(value: T) {
     if (document.activeElement !== this.input) this.input.value = this.words(value);
   }
@@ -29,5 +29,5 @@ export class Field<T> {
   }
 }
 
-/** With six digits. */
+/** Formats a number with six digits. */
 export const readable = (value: number) => String(+value.toPrecision(6));

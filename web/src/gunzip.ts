@@ -6,7 +6,7 @@ async function is_packed(content: Blob): Promise<boolean> {
   return start[0] === 0x1f && start[1] === 0x8b;
 }
 
-/** The content itself where it is not packed. Throws BadInput where it is, and broken, and where it cannot be read. */
+/** The content itself if it is not packed. Throws BadInput if it is packed but broken, or cannot be read. */
 export async function unpacked(content: Blob, name: string): Promise<Blob> {
   const packed = await is_packed(content).catch(() => {
     throw new BadInput(`${name} cannot be read: it may have been changed or moved since it was chosen`);

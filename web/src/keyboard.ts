@@ -18,7 +18,7 @@ export interface KeyActions {
   view(view: ViewName): void;
   engine(): EngineName;
   set_engine(engine: EngineName): void;
-  /** A key of the player; false where there is nothing to play. */
+  /** A key of the player; false if there is nothing to play. */
   play(key: string): boolean;
 }
 

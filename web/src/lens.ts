@@ -1,4 +1,4 @@
-// The panel's controls of the lens: angle, aperture, and what is sharp.
+// The panel's controls of the lens: angle, aperture and focus.
 import { element } from './dom';
 import { Field, readable } from './field';
 import type { Changes, Settings } from './protocol';
@@ -54,7 +54,7 @@ export class LensControls {
     this.focus.disabled = camera.aperture === 0;
     this.focus_distance.value = camera.focus;
     this.focus_on.value = focus_on;
-    // A choice that waits for its distance or its spheres stays.
+    // A choice still without its distance or spheres stays.
     const waits = [this.focus, element('focus_distance'), element('focus_on')].includes(document.activeElement as HTMLElement);
     if (waits) return;
     this.focus.value = focus_on !== '' ? 'spheres' : camera.focus > 0 ? 'distance' : 'auto';

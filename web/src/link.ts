@@ -1,4 +1,4 @@
-// The whole state as a link: scene and settings in the address behind "#".
+// The whole state as a link: scene and settings in the address after "#".
 import type { Changes, Look, Reading, Source } from './protocol';
 import { reading_ids } from './settings';
 
@@ -18,7 +18,7 @@ export function link_of(state: State): string {
   return new URL(prefix + text, location.href).href;
 }
 
-// The largest number that the library keeps a radius in; a factor needs no more.
+// The largest radius that the library holds; a factor needs no more.
 const largest_radius = 3.4028234663852886e38;
 
 const radii: string[] = ['radius', 'radius_scale'];
@@ -50,7 +50,7 @@ const most_depth = 64;
 const is_deep = (value: unknown, left: number): boolean =>
   typeof value === 'object' && value !== null && (left === 0 || Object.values(value).some((one) => is_deep(one, left - 1)));
 
-/** A state as a document gives it; null where it is none. The module checks settings and look. */
+/** A state from a document; null if it is not one. The module checks settings and look. */
 export function state_from(document: unknown): State | null {
   if (typeof document !== 'object' || document === null || is_deep(document, most_depth)) return null;
   const { source, settings, look } = document as Record<string, unknown>;
@@ -62,7 +62,7 @@ export function state_from(document: unknown): State | null {
   };
 }
 
-/** That of an address; null where it has none; throws where it is damaged. */
+/** The state in an address; null if it has none; throws if it is damaged. */
 export function state_of(hash: string): State | null {
   if (!hash.startsWith(prefix)) return null;
   try {
@@ -77,7 +77,7 @@ export function state_of(hash: string): State | null {
   throw new Error('The link is damaged: it does not hold a scene');
 }
 
-/** The reading that an address asks for: `?radius=0.5&frame=3&columns=x=px,y=py,z=pz`. Throws words for the user. */
+/** The reading options of an address: `?radius=0.5&frame=3&columns=x=px,y=py,z=pz`. Throws a message for the user. */
 export function reading_of(search: string): Reading | undefined {
   const asked = new URLSearchParams(search);
   const reading: Reading = {};

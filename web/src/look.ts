@@ -1,5 +1,5 @@
-// The panel's controls of the look: style, colours of elements, background, the rows of selections with actions, and
-// what is for all spheres.
+// The panel's appearance controls: style, colours of elements, background, the rows of selections with actions, and
+// controls for all spheres.
 import { ColourControls } from './colours';
 import { element, RadioGroup } from './dom';
 import type { ColouredBy, Facts, Look, LookFault, LookRow } from './protocol';
@@ -54,7 +54,7 @@ class RowControls {
     this.select.focus();
   }
 
-  /** What the row selects, or what is wrong with it. */
+  /** The row's number of spheres, or its fault. */
   say(text: string, is_fault: boolean): void {
     this.words.textContent = text;
     this.words.classList.toggle('fault', is_fault);
@@ -92,7 +92,7 @@ export class LookControls {
     element('look_add').addEventListener('click', () => this.add({ select: '', action: 'colour', value: '' }).focus());
   }
 
-  /** What there is to choose from. */
+  /** The choices. */
   show_facts(facts: Facts): void {
     this.file_of_spheres = facts.is_file_of_spheres;
     this.of_all.show_facts(facts);
@@ -106,7 +106,7 @@ export class LookControls {
     element('look_names').textContent = facts.attributes.join(', ');
   }
 
-  /** The look of a scene that has just been loaded. */
+  /** The look of a newly loaded scene. */
   show(look: Look, coloured_by: ColouredBy[]): void {
     this.show_choices(look);
     this.of_all.show_ranges(coloured_by);
@@ -126,7 +126,7 @@ export class LookControls {
     if (is_colour && /^#[0-9a-f]{6}$/i.test(look.background)) this.background_colour.value = look.background;
   }
 
-  /** The answer to the last request for a look. Rows keep what the user wrote. */
+  /** The answer to the last request for a look. Rows keep what the user typed. */
   answer(look: Look, counts: number[], coloured_by: ColouredBy[] | null, fault: LookFault | null): void {
     this.show_choices(look);
     if (coloured_by) this.of_all.show_ranges(coloured_by);

@@ -24,7 +24,7 @@ import { start_theme } from './theme';
 import { ThesisDialog } from './thesis';
 
 const most_pixels = 2560 * 1600; // of a picture on the screen
-const finest_ratio = 2; // more of a phone's pixels than this nobody sees
+const finest_ratio = 2; // finer pixels of a phone are invisible
 
 const picture = element('picture');
 const gpu_canvas = element<HTMLCanvasElement>('gpu_canvas');
@@ -38,13 +38,13 @@ let gpu: GpuState = { name: '', here: false, software: false, why_not: '', descr
 let serial = 0;
 let look_serial = 0;
 let loading = 0; // id of the load that is awaited
-let first_frame = false; // of the scene that has just been loaded: it is awaited
-let chosen: OwnFiles | null = null; // the user's files that are on show
+let first_frame = false; // of the newly loaded scene: it is awaited
+let chosen: OwnFiles | null = null; // the user's shown files
 let refused: OwnFiles | null = null; // the user's files that were opened last and could not be read
 let asked_columns = ''; // of the load that is awaited
-let asked: Ask | null = null; // a file of the user's own that a link was made for
+let asked: Ask | null = null; // the user's own file that a link was made for
 let address_reading: Reading | undefined;
-let framed = true; // nobody has moved the camera since it showed the whole scene, or was the scene's own
+let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
 const awaited = new Map<number, { own: OwnFiles | null; framed: boolean }>(); // loads by their ids: what holds once they are done
 let scale = 1;
 let size = { width: 1, height: 1 };
@@ -91,7 +91,7 @@ const engine = new Engine(
       if (id !== null) awaited.delete(id);
       if (id === loading) {
         show_source(source);
-        // Other columns may help, so what was asked for stays in the panel, and a change reads the same file again.
+        // Other columns may help, so the request stays in the panel, and a change reads the same file again.
         if (own && own !== chosen) {
           refused = own;
           element<HTMLInputElement>('columns').value = asked_columns;
@@ -250,7 +250,7 @@ async function open(
   busy(`Loading ${name}`);
   try {
     const { source: from, files } = await what;
-    if (id !== loading) return; // another one was asked for meanwhile
+    if (id !== loading) return; // another one was requested meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
     awaited.set(id, { own, framed: !state.settings?.camera?.eye });
     asked_columns = String(from.reading?.columns ?? '');
@@ -285,7 +285,7 @@ async function open_file(file: File, trajectory: File | null = null): Promise<vo
   if (waiting && !fits) waiting.say_other(file.name);
 }
 
-// A trajectory goes with the other file that was chosen, or with the one on show, whose state stays.
+// A trajectory belongs to the other chosen file, or to the shown one, whose state stays.
 async function open_files(files: File[]): Promise<void> {
   const moves = files.find(is_trajectory) ?? null;
   const file = files.find((one) => !is_trajectory(one));
@@ -299,7 +299,7 @@ async function open_files(files: File[]): Promise<void> {
   }
 }
 
-// The same file with other radii or columns. A camera that nobody has moved is placed anew.
+// The same file with other radii or columns. A camera that was not moved is placed again.
 function read_again(reading: Reading | undefined): void {
   if (refused) return void open(wanted_files(refused, reading), refused.file.name, null, refused);
   if (!settings) return;
@@ -348,7 +348,7 @@ async function first_state(): Promise<State> {
   return state_from(started) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 }
 
-// What the browser lacks, or nothing.
+// The missing features of the browser, or nothing.
 function lacking(): string {
   if (typeof WebAssembly === 'undefined') return 'WebAssembly';
   const has_canvas = typeof OffscreenCanvas !== 'undefined' && 'transferControlToOffscreen' in HTMLCanvasElement.prototype;
@@ -402,7 +402,7 @@ async function start(): Promise<void> {
       const state = await first_state();
       forget_asked();
       if ('file' in state.source) {
-        // Another file in front of the same camera would be a riddle.
+        // The camera of one file would be confusing for another.
         asked = ask_for({ file: state.source.file, state });
         await open_source({ built_in: 'demo' });
       } else await open_source(state.source, state);

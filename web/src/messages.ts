@@ -29,7 +29,7 @@ export function fail(text: string): void {
   show(element('errors'), text, 'error');
 }
 
-/** Notes belong to the scene on show: another one begins without them. */
+/** Notes belong to the shown scene: another one starts without them. */
 export function clear_notes(): void {
   element('messages').replaceChildren();
 }
@@ -38,7 +38,7 @@ export function clear_errors(): void {
   element('errors').replaceChildren();
 }
 
-/** A bar of progress over the picture. `done` 0 to 1, or null where nobody knows; null text hides it. */
+/** A bar of progress over the picture. `done` 0 to 1, or null if unknown; null text hides it. */
 export function busy(text: string | null, done: number | null = null): void {
   element('busy').hidden = text === null;
   if (text === null) return;

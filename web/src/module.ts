@@ -67,7 +67,7 @@ export interface FileSystem {
   unmount(path: string): void;
 }
 
-/** What both modules have. */
+/** The functions of both modules. */
 export interface ThesisModule {
   ThesisRun: { new (gpu: boolean): ThesisRun };
   ShownFramesRun: { new (): ShownFramesRun };
@@ -81,7 +81,7 @@ export interface Module extends ThesisModule {
   FS: FileSystem;
 }
 
-/** `base`: the page's own address. Throws where the module cannot be loaded. */
+/** `base`: the page's own address. Throws if the module cannot be loaded. */
 export async function load_module(base: string, threads: boolean): Promise<Module> {
   const address = new URL(`wasm/${threads ? 'threads' : 'single'}/bihive.js`, base).href;
   const { default: create } = (await import(/* @vite-ignore */ address)) as { default: () => Promise<Module> };
@@ -97,9 +97,9 @@ interface Failure {
   row?: number;
 }
 
-/** What is wrong with what the user gave; the page shows its message. */
+/** A fault of the user's input; the page shows its message. */
 export class BadInput extends Error {
-  /** `row`: the row of a look that is to blame, or -1. */
+  /** `row`: the faulty row of a look, or -1. */
   constructor(
     message: string,
     readonly row = -1,
@@ -108,7 +108,7 @@ export class BadInput extends Error {
   }
 }
 
-/** An answer of the module as a value; throws BadInput where it is an error, saying what was wrong and where. */
+/** An answer of the module as a value; throws BadInput if it is an error, with message and location. */
 export function value_of<T>(answer: string): T {
   const value = JSON.parse(answer) as T & { error?: Failure };
   if (!value.error) return value;

@@ -1,7 +1,7 @@
-// The page without a network, and as the program that opens files: what an installed page has (web/public).
+// The installed page: works without a network, and opens files (web/public).
 
-/** From https, where a browser may install the page. `bihive web` is there anyway, so its pages need no cache; the
- * address ?offline asks for one all the same. */
+/** Only from https, where a browser may install the page. Pages of `bihive web` need no cache; the address ?offline
+ * requests one anyway. */
 export function keep_for_offline(): void {
   const wanted = location.protocol === 'https:' || new URLSearchParams(location.search).has('offline');
   if (!wanted || !('serviceWorker' in navigator)) return;

@@ -15,10 +15,10 @@ export interface Parameter {
   names?: string[]; // of a choice
   default: Value;
   group: string;
-  in_window?: boolean; // window and page have it
+  in_window?: boolean; // available in window and page
   cpu_only?: boolean;
   needs?: 'soft_light' | 'see_through' | 'orthographic';
-  implies?: Id; // what this one is a part of
+  implies?: Id; // switched on by setting this one
   label?: string; // none: it has no control
   long_label?: string;
   place?: number; // in its group: lower ones first
@@ -52,7 +52,7 @@ export function note_of({ cpu_only, needs, note }: Parameter): string {
   return needs === 'orthographic' ? (note ?? 'This needs the projection orthographic') : '';
 }
 
-/** A slider's number with its unit; its sign where the slider has both. */
+/** A slider's number with its unit, and its sign if the slider has both. */
 export function slider_words({ or_zero, unit, slider }: Parameter, value: number): string {
   if (or_zero && value === 0) return 'none';
   if (unit === '%') return `${Math.round(100 * value)} %`;

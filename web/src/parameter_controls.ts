@@ -13,7 +13,7 @@ interface Input {
 
 type Attributes = Record<string, string | number>;
 
-const largest = 3e38; // stands for any number
+const largest = 3e38; // means any number
 
 const typographic = (text: string) => text.replace(/\s+/g, ' ').replaceAll("'", '’');
 const sentence = (text: string) => typographic(text.charAt(0).toUpperCase() + text.slice(1));
@@ -91,7 +91,7 @@ export class ParameterControls {
     return { show: (value) => (slider.value = value as number), disable: (off) => (slider.disabled = off) };
   }
 
-  // An empty one stands for the default.
+  // An empty one means the default.
   private field(row: Parameter, attributes: Attributes, line: HTMLElement): Input {
     const { id, kind, empty_means, least = 0, most = largest } = row;
     const is_number = kind === 'number' || kind === 'whole';

@@ -1,5 +1,5 @@
 // The page that measures Figure 4.4 of the thesis on a phone: one file (scripts/build_phone), which opens without a
-// server. So there are no workers, which such a file cannot start everywhere; everything goes in short steps.
+// server. So there are no workers, which such a file cannot start everywhere; everything runs in short steps.
 import { describe_device } from './device';
 import { element } from './dom';
 import { save } from './download';
@@ -46,7 +46,7 @@ async function load_module(): Promise<ThesisModule> {
   return bihive_phone({ wasmBinary: await new Response(stream).arrayBuffer() });
 }
 
-/** The name of the graphics processor; empty where the browser gives the page no WebGL2. */
+/** The name of the graphics processor; empty if the browser offers no WebGL2. */
 function start_gpu(module: ThesisModule): string {
   const context = element<HTMLCanvasElement>('gpu_canvas').getContext('webgl2', attributes);
   if (!context) return '';
@@ -54,7 +54,7 @@ function start_gpu(module: ThesisModule): string {
   return name_of(context);
 }
 
-// Both engines take turns, pass by pass, until the time is over. Each has one pass at least.
+// Both engines take turns, pass by pass, until the time is over; at least one pass each.
 async function run_passes(runs: Map<string, ThesisRun>): Promise<Pass[]> {
   const passes: Pass[] = [];
   const start = performance.now();
@@ -108,7 +108,7 @@ function verdict({ engine, costs }: Result, software: boolean): string {
   return `By ${names[engine]}, ${costs ? costs_in_words(costs) : 'the times fit no costs of the steps.'}`;
 }
 
-// The first minute beside the last one.
+// Compares the first minute with the last one.
 function heat_in_words(engine: string, passes: Pass[]): string {
   const own = passes.filter((pass) => pass.engine === engine);
   const last_minute = own[own.length - 1]?.minute ?? 1;
@@ -131,7 +131,7 @@ function engines_in_words(results: Result[]): string {
   return `In pictures of the same size the graphics processor draws ${median(ratios).toPrecision(2)} times the frames of one thread of the processor (median of all configurations).`;
 }
 
-// Two digits, and all before the point.
+// At least two digits, and all before the point.
 const readable = (fps: number) => (fps < 10 ? fps.toPrecision(2) : fps.toFixed(0));
 
 function rates_table(result: Result): HTMLElement[] {

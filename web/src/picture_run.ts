@@ -25,7 +25,7 @@ export class PictureRun {
     private readonly progress: (done: number) => void,
   ) {}
 
-  /** The picture as a PNG file, or null where it was cancelled. Throws BadInput where it cannot be drawn. */
+  /** The picture as a PNG file, or null if cancelled. Throws BadInput if it cannot be drawn. */
   async draw({ width_px, height_px, samples_per_pixel }: PictureSize): Promise<Blob | null> {
     value_of(this.page.begin_picture(width_px, height_px, samples_per_pixel));
     for (let done = 0; done < 1; ) {

@@ -24,7 +24,7 @@ export class PlayerBar {
     this.loop.addEventListener('change', () => act({ loops: this.loop.checked }));
   }
 
-  /** A key of the user's; false where there is nothing to play. */
+  /** Handles a key; false if there is nothing to play. */
   key(key: string): boolean {
     if (this.bar.hidden) return false;
     if (key === ' ') this.act({ toggle: true });

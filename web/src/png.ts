@@ -31,7 +31,7 @@ function header(width: number, height: number, channels: 3 | 4): Uint8Array {
   return bytes;
 }
 
-// Each row behind the number of its filter: the difference from the row above, which packs well.
+// Each row after the number of its filter: the difference from the row above, which packs well.
 function* filtered_rows(pixels: Uint8Array, row: number, height: number): Generator<Uint8Array<ArrayBuffer>> {
   for (let y = 0; y < height; ++y) {
     const bytes = new Uint8Array(row + 1);
@@ -41,7 +41,7 @@ function* filtered_rows(pixels: Uint8Array, row: number, height: number): Genera
   }
 }
 
-/** A file of 8 bits a channel. `pixels`: row by row from the top; a colour is not multiplied by its opacity. */
+/** A file of 8 bits per channel. `pixels`: row by row from the top; a colour is not multiplied by its opacity. */
 export async function png_of(pixels: Uint8Array, width: number, height: number, channels: 3 | 4): Promise<Blob> {
   const packer = new CompressionStream('deflate');
   const packed = new Response(packer.readable).arrayBuffer();

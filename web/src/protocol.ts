@@ -24,13 +24,13 @@ export interface Settings extends PictureSettings {
   view: ViewName;
   max_prims: number | 'unlimited' | null;
   max_depth: number | 'unlimited' | null;
-  set: (keyof PictureSettings)[]; // what the user has set; the others are the scene's
+  set: (keyof PictureSettings)[]; // set by the user; the others are the scene's
   focus_on: string;
   replicate: [number, number, number] | null; // null: the input's copies
   camera: Camera;
 }
 
-/** One action on selected spheres: as the options of `bihive render` behind --select. */
+/** One action on selected spheres: as the options of `bihive render` after --select. */
 export interface LookRow {
   select: string; // empty: all
   action: string;
@@ -49,22 +49,22 @@ export interface Look {
   rows: LookRow[];
 }
 
-/** Why a look was refused. `row`: the row to blame, or -1. */
+/** Why a look was refused. `row`: the faulty row, or -1. */
 export interface LookFault {
   row: number;
   message: string;
 }
 
-/** Changes of settings; what a camera leaves out stays. */
+/** Changes of settings; missing values of a camera stay. */
 export type Changes = Omit<Partial<Settings>, 'camera'> & { camera?: Partial<Camera> };
 
-/** How a file is read, as on the command line ("x=px,y=py,z=pz,r=5"); what is left out is the file's own. */
+/** How a file is read, as on the command line ("x=px,y=py,z=pz,r=5"); missing values are the file's own. */
 export type Reading = Partial<Record<ReadingId, string | number>>;
 
-/** Where a scene comes from. A dropped file has no address: a link names it, and the page asks for it. */
+/** The source of a scene. A dropped file has no address: a link names it, and the page asks for it. */
 export type Source = ({ built_in: string; count?: number } | { url: string } | { file: string; trajectory?: string }) & { reading?: Reading };
 
-/** What colours the spheres; categories have no range. */
+/** The attributes that colour the spheres; categories have no range. */
 export interface ColouredBy {
   attribute: string;
   range?: [number, number];
@@ -115,18 +115,18 @@ export interface ShownProgress {
   turning: boolean;
 }
 
-/** A file of the user's, and its trajectory where it has one of its own. They are read in pieces where they lie. */
+/** A file of the user's, and its separate trajectory, if any. They are read in pieces, in place. */
 export interface Files {
   name: string;
   content: Blob;
   trajectory: { name: string; content: Blob } | null;
 }
 
-/** The frame that is wanted, and how they follow each other. */
+/** The requested frame, and the playback. */
 export interface PlayerState {
   frames: number;
   frame: number;
-  shown: boolean; // it is on show
+  shown: boolean; // it is displayed
   playing: boolean;
   loops: boolean;
   frames_per_second: number;
@@ -142,7 +142,7 @@ export type Move =
   | { kind: 'look_from'; side: SideName }
   | { kind: 'home' };
 
-/** To the worker. `id` comes back with the answer. */
+/** Messages to the worker. `id` is returned with the answer. */
 export type Request =
   | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
   | { type: 'load'; id: number; source: Source; files: Files | null; settings: Changes | null; look: Partial<Look> | null }
@@ -157,7 +157,7 @@ export type Request =
   | { type: 'shown_frames'; seconds: number; device: string }
   | { type: 'thesis_cancel' };
 
-/** From the worker. `serial`: of the last request to set something that is in these settings. */
+/** Messages from the worker. `serial`: the last request included in these settings. */
 export type Answer =
   | { type: 'ready'; version: string; threads: number; gpu: GpuState; parameters: Parameter[] }
   | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; coloured_by: ColouredBy[]; notes: string[] }
@@ -172,17 +172,17 @@ export type Answer =
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }
-  | { type: 'thesis_saved'; result: string } // after each configuration: what a later visit can go on from
+  | { type: 'thesis_saved'; result: string } // after each configuration: lets a later visit continue
   | { type: 'shown_progress'; progress: ShownProgress }
   | { type: 'shown_done'; cancelled: boolean; result: string }
   | { type: 'thesis_failed'; message: string }
   | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
 
-/** What there is to draw with. */
+/** The available GPU. */
 export interface GpuState {
-  name: string; // of the graphics processor, in the browser's words; may be empty
+  name: string; // of the GPU, as the browser reports it; may be empty
   here: boolean;
-  software: boolean; // drawn by the processor: slower than the CPU engine
-  why_not: string; // there is none, in the browser's words; may be empty
+  software: boolean; // drawn by the CPU: slower than the CPU engine
+  why_not: string; // the browser's reason why there is none; may be empty
   description: string;
 }

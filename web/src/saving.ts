@@ -14,14 +14,14 @@ export class Saving {
   private readonly height = element<HTMLInputElement>('save_height');
   private readonly start = element<HTMLButtonElement>('save');
   private readonly cancel = element<HTMLButtonElement>('save_cancel');
-  private id = 0; // of the picture that is awaited
+  private id = 0; // of the awaited picture
 
   constructor(private readonly actions: SavingActions) {
     this.start.addEventListener('click', () => this.begin());
     this.cancel.addEventListener('click', () => actions.cancel());
   }
 
-  /** The size of the picture on the screen: what is proposed. */
+  /** The size of the picture on the screen, as the default. */
   propose(width: number, height: number): void {
     this.width.value = String(width);
     this.height.value = String(height);
@@ -34,7 +34,7 @@ export class Saving {
     this.id = this.actions.draw(Number(this.width.value), Number(this.height.value));
   }
 
-  // The focus moves to the button that takes the place of the other.
+  // The focus moves to the button that replaces the other.
   private set_running(running: boolean): void {
     const [shown, hidden] = running ? [this.cancel, this.start] : [this.start, this.cancel];
     const has_focus = document.activeElement === hidden;

@@ -23,7 +23,7 @@ export class Slider {
     this.input.disabled = disabled;
   }
 
-  // A value beyond the slider's end is shown as it is. The page is left alone where it says so already.
+  // A value beyond the slider's end is shown as it is. The page is not touched if it already shows it.
   private show(value = Number(this.input.value)): void {
     const words = this.words(value);
     if (this.output.textContent === words) return;

@@ -3,13 +3,13 @@ import { element } from './dom';
 import { busy } from './messages';
 import type { Files, Reading, Source } from './protocol';
 
-/** A scene to be loaded, and its files where it is not built in. */
+/** A scene to load, and its files unless it is built in. */
 export interface Wanted {
   source: Source;
   files: Files | null;
 }
 
-/** Fetches an address of this origin. Throws with words for the user. */
+/** Fetches an address of this origin. Throws a message for the user. */
 async function fetched(source: Source & { url: string }): Promise<Wanted> {
   const { url } = source;
   let address: URL;
@@ -45,7 +45,7 @@ async function with_progress(response: Response, name: string): Promise<ArrayBuf
   }
 }
 
-/** A source that is read like this. */
+/** A source with these reading options. */
 export function with_reading(source: Source, reading: Reading | undefined): Source {
   const { reading: _, ...place } = source;
   return reading ? { ...place, reading } : place;
@@ -57,7 +57,7 @@ export async function wanted_source(source: Source): Promise<Wanted> {
   throw new Error(`The file ${source.file} must be opened`);
 }
 
-/** A file of the user's own, and the places of its spheres at other times. */
+/** A file of the user's own, and the coordinates of its other frames. */
 export interface OwnFiles {
   file: File;
   trajectory: File | null;
@@ -69,7 +69,7 @@ export async function wanted_files({ file, trajectory }: OwnFiles, reading?: Rea
   return { source: with_reading(place, reading), files: { name: file.name, content: file, trajectory: moves } };
 }
 
-/** By the ending: what holds places alone, and needs the file of the spheres. */
+/** By the ending: a trajectory of coordinates alone, which needs the file of the spheres. */
 export const is_trajectory = ({ name }: File): boolean => /\.(dcd|xtc|trr)$/i.test(name);
 
 const reading_inputs = () =>
@@ -91,7 +91,7 @@ export function listen_for_reading(read: (reading: Reading | undefined) => void)
     });
 }
 
-/** Calls `open` with files that are picked or dropped anywhere, and with sources that are chosen in the panel. */
+/** Calls `open` with files picked or dropped anywhere, and with sources chosen in the panel. */
 export function listen_for_sources(open_source: (source: Source) => void, open_files: (files: File[]) => void): void {
   const built_in = element<HTMLSelectElement>('built_in');
   const count = element<HTMLInputElement>('count');
@@ -142,7 +142,7 @@ export function show_source(source: Source): void {
   radius.value = String(source.reading?.radius ?? '');
   scale.value = String(source.reading?.radius_scale ?? '');
   columns.value = String(source.reading?.columns ?? '');
-  // The thesis's scenes have radii of their own: scenarios take another one.
+  // The thesis's scenes have their own radii: scenarios take another one.
   radius.disabled = name === 'four-spheres';
   element('radius_scale_row').hidden = name !== '' && name !== 'demo';
   element('columns_row').hidden = element('columns_help').hidden = name !== '' && name !== 'demo';

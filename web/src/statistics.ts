@@ -1,4 +1,4 @@
-// The table of both trees' numbers (the library's statistics, as `bihive stats --json` prints them).
+// The table of both trees' statistics (the library's statistics, as `bihive stats --json` prints them).
 import { element, grouped } from './dom';
 
 interface Range {
@@ -39,10 +39,10 @@ function rows(s: Statistics): [string, string, string][] {
   return [
     ['nodes', grouped(s.inner_nodes), grouped(w.nodes)],
     ['leaves', grouped(s.leaves), grouped(w.leaves)],
-    ['spheres a leaf: min–mean–max', range(s.spheres_per_leaf), range(w.spheres_per_leaf)],
+    ['spheres per leaf: min–mean–max', range(s.spheres_per_leaf), range(w.spheres_per_leaf)],
     ['depth of a leaf', range(s.depth), range(w.nodes_above_leaf)],
     ['bytes', grouped(s.bytes.total), grouped(w.bytes.total)],
-    ['bytes a sphere', (s.bytes.total / s.spheres).toFixed(1), w.bytes_per_sphere.toFixed(1)],
+    ['bytes per sphere', (s.bytes.total / s.spheres).toFixed(1), w.bytes_per_sphere.toFixed(1)],
     ['build, ms', ms(s.build_ms), ms(w.build_ms)],
   ];
 }

@@ -1,5 +1,6 @@
 // The dialog that runs Figure 4.4 of the thesis on this device, and counts the frames that its screen shows. A run is
-// kept in the browser after each six configurations, so that a page that was closed, or that the system ended, goes on.
+// saved in the browser after every six configurations, so that a page that was closed, or ended by the system,
+// continues.
 import { chart_element, charts_as_png } from './chart';
 import { element } from './dom';
 import { save } from './download';
@@ -12,7 +13,7 @@ export interface ThesisActions {
   run(quick: boolean, saved: string): void;
   show_frames(seconds: number): void;
   cancel(): void;
-  /** Whether a run with the engine on show could go on from this result. */
+  /** Whether a run with the chosen engine could continue from this result. */
   goes_on_from(result: Record<string, unknown>): boolean;
 }
 
@@ -28,7 +29,7 @@ function storage<T>(work: (store: Storage) => T): T | null {
   }
 }
 
-// The rates as words: a line for each scenario and number of spheres.
+// The rates as text: a line for each scenario and number of spheres.
 function rate_lines(rates: Rate[]): string[] {
   const lines: string[] = [];
   for (const { scenario, spheres, max_prims, fps } of rates) {
@@ -50,7 +51,7 @@ interface PictureSize {
 // A quick run's frame rates are those of small pictures; a note beside them says so.
 const pixels = ({ width_px, height_px }: PictureSize) => `pictures of ${width_px} × ${height_px}`;
 
-// What the steps of a ray cost on this device, and who wins at these costs; '' where nothing was found.
+// The costs of a ray's steps on this device, and the winner at these costs; '' if unknown.
 function verdict(result: string): string {
   const { costs } = JSON.parse(result) as { costs?: Costs };
   if (!costs) return '';
@@ -73,7 +74,7 @@ export class ThesisDialog {
   private file = 'bihive-figure-4.4';
 
   constructor(private readonly actions: ThesisActions) {
-    // "?quick" chooses the quick run, for a quick try.
+    // "?quick" chooses the quick run.
     this.quick.checked = new URLSearchParams(location.search).has('quick');
     element('thesis_open').addEventListener('click', () => {
       this.show_saved();
@@ -98,7 +99,7 @@ export class ThesisDialog {
     this.png.addEventListener('click', () => void this.save_png());
   }
 
-  // The result of an earlier run that this one would go on from, or ''.
+  // The result of an earlier run that this one would continue, or ''.
   private kept(): string {
     const text = storage((store) => store.getItem(key)) ?? '';
     try {

@@ -1,4 +1,5 @@
-// What a run of Figure 4.4 says of a device (frame_rates_json() in thesis/frame_rates_report.h), as far as pages show it.
+// The result of a run of Figure 4.4 on a device (frame_rates_json() in thesis/frame_rates_report.h), as far as pages
+// show it.
 
 export interface Rate {
   scenario: number;
@@ -20,7 +21,7 @@ export interface Costs {
 
 const with_error = (value: number, error: number) => `${value.toFixed(2)} ± ${error.toFixed(2)}`;
 
-/** What the steps of a ray cost, with standard errors, and who wins at these costs. */
+/** The costs of a ray's steps, with standard errors, and the winner at these costs. */
 export function costs_in_words(costs: Costs): string {
   return (
     `an inner node costs ${with_error(costs.inner_per_test, costs.inner_per_test_error)} sphere tests and a leaf ` +

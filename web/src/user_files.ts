@@ -1,4 +1,4 @@
-// In the worker: the user's files where the module finds them. Nothing is copied: it reads them in pieces.
+// In the worker: mounts the user's files for the module. Nothing is copied: it reads them in pieces.
 import { unpacked } from './gunzip';
 import type { Module } from './module';
 import type { Files } from './protocol';
@@ -6,7 +6,7 @@ import type { Files } from './protocol';
 type Blobs = { name: string; data: Blob }[] | null;
 
 export class UserFiles {
-  private kept: Blobs = null; // of the scene on show
+  private kept: Blobs = null; // of the shown scene
   private mounted: Blobs = null;
 
   constructor(private readonly module: Module) {
@@ -17,8 +17,7 @@ export class UserFiles {
     return this.module.Page.folder().replace(/\/$/, '');
   }
 
-  /** Puts these files in the place of those before, until keep(); returns their names there. Throws BadInput where one
-   * is broken. */
+  /** Replaces the previous files by these, until keep(); returns their names. Throws BadInput if one is broken. */
   async show(files: Files): Promise<{ name: string; trajectory: string }> {
     const plain = (name: string) => name.replaceAll('/', '_');
     const blobs = [{ name: plain(files.name), data: await unpacked(files.content, files.name) }];
@@ -32,13 +31,13 @@ export class UserFiles {
     return { name: blobs[0]!.name, trajectory };
   }
 
-  /** Whether their scene is on show now. If not, those before are there again: more of their frames may be wanted. */
+  /** Whether their scene is shown now. If not, the previous files return: more of their frames may be needed. */
   keep(shown: boolean): void {
     if (shown) this.kept = this.mounted;
     else if (this.mounted !== this.kept) this.mount(this.kept);
   }
 
-  /** The scene on show has no files. */
+  /** The shown scene has no files. */
   forget(): void {
     this.mount(null);
     this.kept = null;

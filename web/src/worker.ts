@@ -1,4 +1,4 @@
-// The worker: the C++ module, the loop of frames, and the answers to the page.
+// The worker: the C++ module, the frame loop, and the answers to the page.
 import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
 import { GlCanvas } from './gl_canvas';
 import type { Parameter } from './parameter';
@@ -66,7 +66,7 @@ function attach_gl(): void {
   }
 }
 
-// A software driver takes a while to start, so it is started only when the user asks for it.
+// A software driver takes a while to start, so it is started only when the user chooses it.
 function ensure_gl(): void {
   if (gl_description !== '') return;
   if (!gl.here) throw new BadInput('This browser has no WebGL2: the CPU engine draws instead');
@@ -74,7 +74,7 @@ function ensure_gl(): void {
   send({ type: 'gpu', gpu: gl.state(gl_description) });
 }
 
-// The C++ side goes on with the CPU engine.
+// The C++ side continues with the CPU engine.
 function on_lost(): void {
   if (thesis) thesis.cancelled = true;
   if (gl_description === '') return;
@@ -98,7 +98,7 @@ function on_restored(): void {
 
 // Frames.
 
-// Cameras change in parts.
+// Cameras change member by member.
 function merged(before: Changes, next: Changes): Changes {
   const camera = before.camera || next.camera ? { camera: { ...before.camera, ...next.camera } } : {};
   return { ...before, ...next, ...camera };
@@ -202,7 +202,7 @@ function show_gpu_image(): void {
   page.show(size_px.width, size_px.height);
 }
 
-// Its context is lost, although the event may still be on its way.
+// Its context is lost, although the event may not have arrived yet.
 const on_lost_gpu = ({ engine }: Settings) => engine === 'gpu' && !gl.here;
 
 function report_or_loss(now: Settings): FrameReport | null {
@@ -217,7 +217,7 @@ function report_or_loss(now: Settings): FrameReport | null {
 async function next_frame(): Promise<void> {
   frame_pending = false;
   if (thesis || saving) return;
-  // A fault of one does not keep the others from being applied.
+  // A fault of one does not prevent the others from being applied.
   for (const apply of [apply_moves, apply_look, apply_changes, continue_playing]) await attempt(null, apply);
   await attempt(null, () => {
     const now = settings();
@@ -248,7 +248,7 @@ interface Loaded {
 }
 
 // The look and the settings of a link, or of the scene. The engine is the user's choice: without one it stays.
-// Returns what colours the spheres then, null where no look was wanted, and the messages of what failed.
+// Returns the colouring attributes, null without a requested look, and the messages of failures.
 function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   const notes: string[] = [];
   let coloured_by: ColouredBy[] | null = null;

@@ -20,11 +20,11 @@ struct RenderOptions : PictureRequest {
   std::optional<std::vector<Layer>> layers;
   bool json = false;
   std::string film;  ///< the file that describes a film, of which this is a picture; empty: none
-  std::optional<std::int64_t> picture_of_film;  ///< from 0; unset: input.frame says it
+  std::optional<std::int64_t> picture_of_film;  ///< from 0; unset: by input.frame
 };
 void run_render(const RenderOptions& options);
 
-/// Pictures a second: a fraction, so that 30000/1001 is exact.
+/// Pictures per second: a fraction, so that 30000/1001 is exact.
 struct FrameRate {
   std::int64_t pictures = 25, seconds = 1;
 };
@@ -41,7 +41,7 @@ Result<Shard> shard_from(const std::string& text);
 /// The frames that give the colours of numbers their range.
 enum class RangeOfColours { first, film, frame };
 
-/// Milliseconds of each step, summed over the pictures. The steps go on at the same time.
+/// Milliseconds of each step, summed over the pictures. The steps run concurrently.
 struct FilmTimes {
   double read_ms = 0;   ///< from the file to spheres
   double build_ms = 0;  ///< looks and trees
@@ -60,21 +60,22 @@ struct FilmTimes {
 
 struct FilmOptions {
   RenderOptions picture;           ///< of every picture; its output is the film's
-  std::vector<std::string> words;  ///< the options of a picture, as they stand on the command line
+  std::vector<std::string> words;  ///< the options of a picture, as on the command line
   std::optional<FrameRange> frames;
   std::optional<std::int64_t> pictures;  ///< of one frame
   FrameRate rate;
   double turntable_deg = 0;
   std::string camera_keys;  ///< a file; empty: none
   RangeOfColours range_of_colours = RangeOfColours::first;
-  std::string codec;  ///< ffmpeg's words for the film's codec, one space between them; empty: by the output's ending
+  std::string codec;  ///< ffmpeg's options for the film's codec, separated by single spaces; empty: by the output's
+                      ///< ending
   std::optional<Shard> shard;
   bool join = false;
-  bool silent = false;  ///< no report: another process makes that of the film
-  FilmTimes of_shards;  ///< with join: what others did for it just now
+  bool silent = false;  ///< no report: another process reports on the film
+  FilmTimes of_shards;  ///< with join: the times of the processes that made the shards
   double ms_of_shards = 0;
 };
-/// Returns what it has done.
+/// Returns statistics.
 FilmTimes run_film(const FilmOptions& options);
 
 struct StylesOptions {
@@ -82,7 +83,7 @@ struct StylesOptions {
 };
 void run_styles(const StylesOptions& options);
 
-/// The window, and what it shows. Unset: the scene's value.
+/// The window, and its content. Unset: the scene's value.
 struct ViewOptions : PictureRequest {
   std::optional<PictureSize> size;  ///< of the window
   std::optional<ViewerEngine> window_engine;
@@ -118,15 +119,15 @@ void run_scene(const SceneOptions& options);
 struct InfoOptions {
   InputOptions input;
   TreeParameters tree;
-  bool attributes = false;  ///< only what is known of each sphere
-  bool frames = false;      ///< what all frames hold
-  bool keep_index = false;  ///< of the frames, beside the file
+  bool attributes = false;  ///< only the attributes of spheres
+  bool frames = false;      ///< the content of all frames
+  bool keep_index = false;  ///< the index of the frames, beside the file
   bool json = false;
 };
 /// `bihive info --frames`.
 void run_info_of_frames(const InfoOptions& options);
 void run_info(const InfoOptions& options);
-/// The part of `bihive info --attributes`.
+/// `bihive info --attributes`.
 void print_attributes(const Input& input, bool as_json);
 
 struct SelectOptions {
@@ -164,7 +165,7 @@ struct ThesisOptions {
   std::vector<double> costs;  ///< of Figure 4.4, for all its claims: apps/thesis/experiment.h; empty: fitted ones
   std::string values;         ///< folder of other stated values; empty: the built-in ones
   std::vector<std::string> devices;  ///< runs that the page saved on other devices
-  std::string against;               ///< results.json of an older run to compare with; empty: none
+  std::string against;               ///< results.json of an older run for comparison; empty: none
   bool json = false;
 };
 

@@ -1,4 +1,4 @@
-// bihive convert: the spheres as they were read, in a file of another format.
+// bihive convert: writes the spheres as they were read into a file of another format.
 
 #include <fmt/format.h>
 
@@ -47,7 +47,7 @@ const OutputFormat& output_format(const ConvertOptions& options) {
              "or say --format xyz|extxyz|csv|npy|ply|scene");
 }
 
-// Takes the spheres away that the expression does not select.
+// Removes the spheres that the expression does not select.
 void keep_selected(Scene& scene, const std::string& expression) {
   const std::vector<std::uint8_t> mask = selected_or_fail(scene.spheres, expression, "select");
   const std::int64_t count = std::count(mask.begin(), mask.end(), std::uint8_t{1});

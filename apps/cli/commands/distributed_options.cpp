@@ -8,7 +8,7 @@
 namespace bihive::cli {
 
 Result<ReadingByRanks> reading_by_ranks(const RenderOptions& options) {
-  // Chunks have one frame, a focus on a selection looks for its spheres, and a film keeps settings of all kinds.
+  // Chunks have one frame, a focus on a selection needs all spheres, and a film keeps settings of all kinds.
   const bool by_value =
       options.input.reading.options().frame == 0 && (!options.focus || std::holds_alternative<double>(*options.focus));
   ReadingByRanks reading = by_value && options.film.empty() ? ReadingByRanks::chunks : ReadingByRanks::whole;

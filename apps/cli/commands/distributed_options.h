@@ -9,12 +9,12 @@
 
 namespace bihive::cli {
 
-/// How the spheres come to the ranks. chunks: each rank reads a chunk of the file, where the file has chunks, as the
-/// option looks at no sphere but by its centre and radius. whole: rank 0 reads all, and the others get theirs from it.
+/// How ranks get their spheres. chunks: each rank reads a chunk of the file, if the file has chunks, because the option
+/// depends on centres and radii alone. whole: rank 0 reads all, and distributes them.
 enum class ReadingByRanks { chunks, whole };
 
-/// The way in which all of these options work; they are named as RenderOptions::given does. Error: one that the table
-/// of distributed_options.cpp does not know.
+/// The way in which all of these options work; ids as in RenderOptions::given. Error: one that the table of
+/// distributed_options.cpp does not know.
 Result<ReadingByRanks> reading_by_ranks(const RenderOptions& options);
 
 }  // namespace bihive::cli

@@ -44,7 +44,7 @@ RenderCounts help(const Scene& scene, const Tracer& tracer, const RenderSettings
   return rays;
 }
 
-// Rank 0, which draws too, and puts the tiles of all into the file in their order.
+// Rank 0, which draws too, and writes the tiles of all ranks in order.
 class Leader {
  public:
   Leader(const PictureTiles& tiles, PictureFile& file, const ProgressCallback& progress, PictureCommunicator& ranks)

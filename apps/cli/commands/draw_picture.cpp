@@ -13,7 +13,7 @@
 namespace bihive::cli {
 namespace {
 
-// Film and file of a row. Adaptive samples keep a film of their own, and which pixels lie on edges.
+// Memory of a row of film and file. Adaptive samples keep their own film, and the set of edge pixels.
 double bytes_of_row(const RenderSettings& settings, const PictureFile& file) {
   const double film = sizeof(Vec3f) + (settings.transparent ? sizeof(float) : 0);
   const double pixel = film + (settings.adaptive_samples ? film + 1 : 0) + file.bytes_of_pixel();
@@ -44,7 +44,7 @@ Drawn draw_on_cpu(const Scene& scene, const Tracer& tracer, const RenderSettings
   return drawn;
 }
 
-// Layers without light: one ray for each pixel.
+// Layers without light: one ray per pixel.
 Drawn draw_layers_alone(const RenderSettings& settings, PictureFile& file, const ProgressCallback& progress) {
   const Timer timer;
   const Tile all = drawn_pixels(settings);

@@ -16,7 +16,7 @@ struct Drawn {
   std::int64_t all_rays = 0;
   double render_ms = 0;
   nlohmann::ordered_json rays, gpu;
-  nlohmann::ordered_json exchange;  ///< null: all spheres were here
+  nlohmann::ordered_json exchange;  ///< null: all spheres were local
 };
 
 Drawn drawn_with(const RenderCounts& rays);
@@ -24,8 +24,8 @@ Drawn drawn_with(const RenderCounts& rays);
 /// Thrown when a signal came while the caller had a CancellableSection.
 struct Interrupted {};
 
-/// Gives all bands of the picture to the file, without finish(). Fails with kBadInput after an error, also one of the
-/// file. Throws Interrupted after a signal.
+/// Writes all bands of the picture into the file, without finish(). Fails with kBadInput after an error, also one of
+/// the file. Throws Interrupted after a signal.
 Drawn draw_picture(const Scene& scene, const Tracer& tracer, RenderEngine engine, const RenderSettings& settings,
                    const std::vector<Layer>& layers, PictureFile& file, const ProgressCallback& progress);
 

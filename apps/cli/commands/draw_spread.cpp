@@ -39,7 +39,7 @@ class DrawingThreads {
   void run(int count) {
     for (int i = 0; i < count; ++i) threads_.emplace_back([this] { draw(); });
   }
-  /// Waits for their end.
+  /// Joins them.
   void join() {
     for (std::thread& thread : threads_) thread.join();
   }
@@ -84,7 +84,7 @@ class DrawingThreads {
   std::exception_ptr failure_;
 };
 
-// A thread that got no answer says less than the signal that stopped it.
+// The signal that stopped a thread is more informative than its missing answer.
 void rethrow(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
@@ -109,7 +109,7 @@ Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, Pic
     channel.end_giving(drawing.work(), drawing.failure() != nullptr);
     drawn = drawn_with(drawing.work().rays);
   } else {
-    // The own threads end while this one writes.
+    // This rank's threads may end while this one writes.
     std::thread end_of_own([&] {
       drawing.join();
       channel.end_own_giving();
@@ -121,7 +121,7 @@ Drawn draw_spread(const SpreadScene& spread, const RenderSettings& settings, Pic
         if (!in_order.status() || channel.somebody_failed()) channel.stop_counting();
       }
     } catch (...) {
-      // A layer that asks other ranks: it ends as those do.
+      // A layer that needs other ranks ends with them.
       failure = std::current_exception();
       channel.stop_counting();
       while (channel.take(/*wait=*/true)) {

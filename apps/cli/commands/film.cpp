@@ -1,4 +1,4 @@
-// bihive film: from a trajectory, or a camera that moves, to a film.
+// bihive film: makes a film of a trajectory or a moving camera.
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Refuses what contradicts the kind of the film, before anything is read.
+// Refuses options that contradict the kind of the film, before anything is read.
 void check_film_options(const FilmOptions& options, FilmKind kind) {
   const RenderOptions& picture = options.picture;
   if (options.join && (!picture.input.input.empty() || options.shard || options.frames || options.pictures))
@@ -112,8 +112,8 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
   print(as_text(json, 2) + "\n");
 }
 
-// Makes the pictures that are missing, and the film of all unless this is a shard. After a signal or a failure nothing
-// is left if no picture is whole.
+// Makes the missing pictures, and the film of all unless this is a shard. After a signal or a failure nothing is left
+// if no picture is complete.
 FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options, const Style& style,
                        const PictureNumbers& wanted, const PictureNumbers& missing, FilmFolder& folder, FilmSink* sink,
                        PictureCommunicator* ranks) {
@@ -137,7 +137,7 @@ FilmTimes make_missing(const FrameSource& source, const FilmPlan& plan, const Fi
   }
 }
 
-// The words for ffmpeg come from a file here, unless the user gives them again.
+// The options for ffmpeg come from a file here, unless the user gives them again.
 void check_codec_of_shards(const FilmOptions& options, const FilmPlan& plan, const std::string& path) {
   const std::string& codec = plan.asked.codec;
   if (!options.codec.empty() && options.codec != codec)
@@ -148,7 +148,7 @@ void check_codec_of_shards(const FilmOptions& options, const FilmPlan& plan, con
     fail({status.error().message, path, 0, 0, status.error().hint});
 }
 
-// The whole film of the shards' pictures. A signal leaves what is done for the next join.
+// The whole film of the shards' pictures. After a signal the next join continues.
 void encode_shards(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const FilmPlan& plan,
                    const PictureNumbers& all, FilmFolder& folder) {
   const CancellableSection section;
@@ -220,7 +220,7 @@ std::unique_ptr<PictureCommunicator> ranks_of_picture(FilmOptions& options, std:
   return communicator()->split(number);
 }
 
-// A rank that fails says so to the others of its picture, which leave without a word.
+// A rank that fails tells the others of its picture, which leave silently.
 template <class Run>
 void run_on_ranks(PictureCommunicator* ranks, const Run& run) {
   if (ranks == nullptr) return run();
@@ -244,7 +244,7 @@ PictureNumbers of_rank_0(const PictureNumbers& numbers, PictureCommunicator& ran
   return PictureNumbers(numbers.step(), std::move(of_first));
 }
 
-// All that follows when it is known what the film shows.
+// The rest, once the content of the film is known.
 FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const Style& style,
                         const FrameSource& source, FilmPlan plan, FilmFolder& folder, PictureCommunicator* ranks,
                         const Timer& timer) {
@@ -291,7 +291,7 @@ FilmTimes run_film(const FilmOptions& asked) {
   // Missing programs are named before any work.
   const std::string ffmpeg = kind == FilmKind::encoded && !options.shard ? find_ffmpeg() : "";
   check_film_outputs(options.picture.output, inputs_of(options));
-  // A link stays, and the film is made beside the file that it leads to.
+  // A link stays, and the film is made beside its target.
   if (kind != FilmKind::pictures) {
     options.picture.output = value_or_fail(path_behind_links(options.picture.output));
     check_link_of_film(asked.picture.output, options.picture.output);
@@ -303,7 +303,7 @@ FilmTimes run_film(const FilmOptions& asked) {
   choose_engine(options.picture);
   warn_of_each_text_once();
 
-  // Find out what the film shows, and whether an earlier run has begun it.
+  // Determine the content of the film, and whether an earlier run has begun it.
   const Style style = choose_style(options.picture.style);
   const FrameSource source = FrameSource::open(options.picture.input, style, !options.picture.style.name.empty());
   check_film_outputs(options.picture.output, source.files());

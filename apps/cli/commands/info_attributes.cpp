@@ -1,4 +1,4 @@
-// bihive info --attributes: what is known of each sphere, for selections and colours.
+// bihive info --attributes: the attributes of spheres, for selections and colours.
 
 #include <fmt/format.h>
 

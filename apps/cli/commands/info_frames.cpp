@@ -1,4 +1,4 @@
-// bihive info --frames: what all frames of a file hold.
+// bihive info --frames: the content of all frames of a file.
 
 #include <fmt/format.h>
 
@@ -23,10 +23,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Frames that are read before their findings are put together: enough for all threads, and few in memory.
+// Frames read before their findings are merged: enough for all threads, and few in memory.
 constexpr std::int64_t kFramesAtOnce = 64;
 
-// More are counted only.
+// Further ones are only counted.
 constexpr std::size_t kMostWarnings = 10;
 
 struct Span {
@@ -46,7 +46,7 @@ struct Span {
   ordered_json json() const { return known() ? ordered_json{{"min", min}, {"max", max}} : ordered_json(); }
 };
 
-// The contents of one frame, or of all frames so far.
+// The content of one frame, or of several.
 struct Summary {
   std::string format;
   std::int64_t frames = 0, with_cell = 0;
@@ -105,7 +105,7 @@ Summary summary_of(const SphereFile& file) {
   return made;
 }
 
-// All frames, each read once, by all threads.
+// Reads all frames once, on all threads.
 Summary summary_of(const Frames& frames) {
   Summary all;
   const CancellableSection section;

@@ -1,4 +1,4 @@
-// Choices that the command line alone offers by name.
+// Named choices of the command line alone.
 #pragma once
 
 #include "bihive/scene/names.h"

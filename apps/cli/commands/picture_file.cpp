@@ -17,7 +17,7 @@
 namespace bihive::cli {
 namespace {
 
-// The settings of a part of the picture.
+// The settings of a band of the picture.
 RenderSettings settings_of(const RenderSettings& settings, const Tile& pixels) {
   RenderSettings of_part = settings;
   of_part.crop = pixels;
@@ -62,13 +62,13 @@ class PngFileOfRows : public PictureFile {
   }
 
   std::optional<std::uint64_t> hash() const override { return hash_.value(); }
-  // As pixels and, at worst, as bytes of the file.
+  // Memory as pixels and, at worst, as bytes of the file.
   double bytes_of_pixel() const override { return (picture_.settings.transparent ? 4 : 3) * (bits() / 8.0) * 2; }
 
  private:
   int bits() const { return static_cast<int>(picture_.options.bits.value_or(8)); }
 
-  // The file begins with its first rows, so that a small picture is drawn before there is one.
+  // The file is created with its first rows, so that a small picture is drawn before it exists.
   Status write() {
     const std::string bytes = encoder_.take_bytes();
     const StreamSection nobody_may_read(stream_);

@@ -24,11 +24,11 @@ void check_picture_name(const std::string& output);
 /// Whether the output's name says so.
 bool is_exr(const std::string& output);
 
-/// The layers of an OpenEXR file; empty for a PNG. Takes out of the settings what such a file does not get: labels, and
-/// the exposure and curve that scene or style mean for a screen. Fails where options contradict the file's kind.
+/// The layers of an OpenEXR file; empty for a PNG. Removes from the settings what such a file does not have: labels,
+/// and the exposure and curve that scene or style mean for a screen. Fails if options contradict the file's kind.
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
 
-/// The file needs this besides its pixels. All but the text must outlive it.
+/// What the file needs besides its pixels. All except the text must outlive it.
 struct PictureToWrite {
   const RenderOptions& options;
   const Scene& scene;
@@ -41,11 +41,11 @@ struct PictureToWrite {
 class PictureFile {
  public:
   virtual ~PictureFile() = default;
-  /// The next rows: as BandCallback (render/renderer.h). An OpenEXR file without radiance does not look at the film.
+  /// The next rows: as BandCallback (render/renderer.h). An OpenEXR file without radiance ignores the film.
   virtual Status add(const Film& film, const Tile& pixels) = 0;
-  /// The file takes its place.
+  /// The file gets its path.
   virtual Status finish() = 0;
-  /// Of pictures on screens alone.
+  /// For pictures on screens alone.
   virtual std::optional<std::uint64_t> hash() const { return std::nullopt; }
   /// Memory for one pixel of a band, without the film.
   virtual double bytes_of_pixel() const = 0;

@@ -1,4 +1,4 @@
-// bihive render: from an input to a picture.
+// bihive render: draws a picture of an input.
 
 #include <memory>
 
@@ -44,7 +44,7 @@ void run_render(const RenderOptions& asked) {
   const std::unique_ptr<PictureFile> file =
       leads() ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})
               : nullptr;
-  // Nothing may fail between this and the drawing, for the other ranks wait for rank 0 there.
+  // Nothing may fail between this and the drawing, because the other ranks wait for rank 0 there.
   if (communicator() != nullptr) communicator()->barrier();
   const Drawn drawn = [&] {
     const CancellableSection section;

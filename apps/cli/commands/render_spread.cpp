@@ -28,7 +28,7 @@
 namespace bihive::cli {
 namespace {
 
-// Chunks of the file give the picture of the whole one only where nothing but centres and radii matters.
+// Chunks of the file give the picture of the whole one only if nothing but centres and radii matters.
 bool reads_chunks(const RenderOptions& options, ReadingByRanks reading) {
   const std::string& input = options.input.input;
   if (reading == ReadingByRanks::whole || is_built_in_scene(input) || !data_path(input).inside.empty()) return false;
@@ -41,7 +41,7 @@ bool reads_chunks(const RenderOptions& options, ReadingByRanks reading) {
   return plain_colours && !style.picture.labels.legend && can_read_chunks_of(file_of(options.input));
 }
 
-// The spheres of this rank, with what is true of all.
+// The spheres of this rank, with facts about all.
 LoadedPicture load_chunk(const RenderOptions& options, Style& style, Communicator& ranks) {
   LoadedPicture loaded;
   WholeSet& whole = loaded.whole.emplace();

@@ -16,7 +16,7 @@
 
 namespace bihive::cli {
 
-/// The input with the user's options, and what its file will say of them.
+/// The input with the user's options, and the text about them in its file.
 struct PreparedPicture {
   RenderEngine engine;
   Input input;
@@ -27,19 +27,19 @@ struct PreparedPicture {
   double read_ms;
 };
 
-/// An input in this style, and what is true of all its spheres where it has a chunk of them.
+/// An input in this style, and facts about all its spheres if it has only a chunk of them.
 struct LoadedPicture {
   Input input;
   std::optional<WholeSet> whole = {};
 };
 using LoadPicture = std::function<LoadedPicture(Style& style)>;
 
-/// The options of the film are taken already. Fails like the steps that it takes. `load`: in place of load_input().
+/// The options of the film are applied already. Fails like the steps that it calls. `load`: replaces load_input().
 PreparedPicture prepare_render(const RenderOptions& options, const LoadPicture& load = {});
-/// The film's share of a picture's options.
+/// Merges the film's options into a picture's.
 RenderOptions with_film(const RenderOptions& asked);
 
-/// A picture that was drawn, for the report.
+/// A drawn picture, for the report.
 struct FinishedPicture {
   const PreparedPicture& prepared;
   Engine engine;
@@ -50,7 +50,7 @@ struct FinishedPicture {
 };
 void report_render(const RenderOptions& options, const FinishedPicture& finished);
 
-/// bihive-mpi with --distribute: each rank has some of the spheres. `options`: of with_film().
+/// bihive-mpi with --distribute: each rank has some of the spheres. `options`: from with_film().
 void run_render_spread(const RenderOptions& options);
 
 }  // namespace bihive::cli

@@ -1,4 +1,4 @@
-// bihive select: the spheres that an expression selects.
+// bihive select: counts and lists the spheres that an expression selects.
 
 #include <fmt/format.h>
 

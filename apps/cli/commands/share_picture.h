@@ -1,4 +1,4 @@
-// Rank 0 reads the input and tells the others.
+// Rank 0 reads the input and sends it to the others.
 #pragma once
 
 #include "commands/render_steps.h"
@@ -6,7 +6,7 @@
 
 namespace bihive::cli {
 
-/// On rank 0 `prepared` is given, on the others it becomes what rank 0 has, but for the layers, and with this rank's
+/// On rank 0 `prepared` is the input; on the others it becomes a copy, except for the layers, and with this rank's
 /// `settings.threads`. With all spheres, or with none.
 void share_picture(PreparedPicture& prepared, bool with_spheres, PictureCommunicator& ranks);
 

@@ -1,4 +1,4 @@
-// bihive stats: the trees of an input in numbers.
+// bihive stats: statistics of the trees of an input.
 
 #include <fmt/format.h>
 
@@ -57,7 +57,7 @@ void print_wide_table(const WideFacts& wide) {
   row("bytes, spheres", grouped(s.sphere_bytes));
   row("bytes, other", grouped(s.other_bytes));
   row("bytes, total", grouped(s.used_bytes));
-  row("bytes a sphere", fmt::format("{:.2f}", wide.bytes_per_sphere()));
+  row("bytes per sphere", fmt::format("{:.2f}", wide.bytes_per_sphere()));
   row("predicted low", grouped(wide.predicted.low_bytes));
   row("predicted high", grouped(wide.predicted.high_bytes));
   row("bytes really allocated", grouped(s.allocated_bytes));

@@ -1,4 +1,4 @@
-// bihive styles: the looks that the program brings along.
+// bihive styles: lists the built-in styles.
 
 #include <fmt/format.h>
 

@@ -14,7 +14,7 @@ void TilesInOrder::add(std::int64_t number, Film film) {
   progress_(static_cast<double>(++added_) / static_cast<double>(tiles_.count()));
 }
 
-// All tiles before the row are written, so those of the row are the first that are kept.
+// All tiles before the row are written, so those of the row are the first kept.
 bool TilesInOrder::has_row(int row) const {
   const std::int64_t last = std::int64_t{row + 1} * tiles_.columns() - 1;
   auto tile = early_.begin();

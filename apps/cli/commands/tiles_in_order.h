@@ -1,4 +1,4 @@
-// The tiles of a picture, drawn in any order, on their way into a file that is written from the top.
+// Reorders the tiles of a picture, drawn in any order, for a file written from the top.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace bihive::cli {
 
-/// Puts rows of tiles into the file in their order, and keeps tiles that come early.
+/// Writes rows of tiles into the file in order, and keeps tiles that arrive early.
 class TilesInOrder {
  public:
   /// All must outlive it.
@@ -29,7 +29,7 @@ class TilesInOrder {
   const PictureTiles& tiles_;
   PictureFile& file_;
   const ProgressCallback& progress_;
-  std::map<std::int64_t, Film> early_;  // tiles of rows that are not written yet
+  std::map<std::int64_t, Film> early_;  // tiles of rows not yet written
   std::int64_t added_ = 0;
   int rows_written_ = 0;
   Status status_ = Done{};

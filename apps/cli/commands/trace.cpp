@@ -28,7 +28,7 @@
 namespace bihive::cli {
 namespace {
 
-// Rays in a chunk. Progress is shown and Ctrl-C ends the work between two chunks.
+// Rays per chunk. Progress is shown and Ctrl-C is checked between chunks.
 constexpr std::int64_t kFewestPerChunk = 16384;
 constexpr std::int64_t kMostPerChunk = 262144;
 constexpr std::int64_t kChunksPerThread = 4;

@@ -48,7 +48,7 @@ void put_parameters(const ViewOptions& options, ordered_json& settings) {
   Overrides chosen = options.picture;
   if (chosen.has("length_unit") && !chosen.is_on("scale_bar"))
     fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
-  // Without labels: none but those that are asked for.
+  // Without labels: only the requested ones.
   for (const Parameter& parameter : picture_parameters())
     if (options.labels.none && parameter.group == ParameterGroup::labels && !chosen.has(parameter.id))
       chosen.set(parameter.id, parameter.get(PictureSettings()));

@@ -40,7 +40,7 @@ PageFiles load_page() {
   return std::move(*page);
 }
 
-// All that can be fetched: the page, the file, and the page's first input (start.json).
+// Everything that can be fetched: the page, the file, and the page's first input (start.json).
 Site site_of(const WebOptions& options) {
   Site site;
   ordered_json start = ordered_json::object();

@@ -1,9 +1,9 @@
-// A film that ffmpeg encodes, in segments, because a pipe into ffmpeg cannot go on after an end.
+// A film encoded by ffmpeg, in segments, because an ffmpeg pipe cannot be resumed.
 //
 // FILE.part holds the segments, each named by its first picture and the first one after it. A segment gets this name
-// when it is whole and ffmpeg has counted its pictures; a later run goes on after the last one. Until then it has a
-// name that no other run gives, for a killed run's ffmpeg may still write. In the end ffmpeg joins the segments without
-// encoding them again.
+// when it is complete and ffmpeg has counted its pictures; a later run continues after the last one. Until then it has
+// a unique name, because a killed run's ffmpeg may still write. In the end ffmpeg joins the segments without encoding
+// them again.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -25,8 +25,8 @@
 namespace bihive::cli {
 namespace {
 
-// A segment ends when it is so old: what a killed run loses. And it lasts a second at least, because each begins with a
-// whole picture, which takes more room.
+// Maximum age of a segment, which is what a killed run loses. It lasts at least a second, because each begins with a
+// whole picture, which takes more space.
 constexpr double kSegmentMs = 15e3;
 
 constexpr const char* kUnfinished = "unfinished-";
@@ -95,7 +95,8 @@ class EncodedFilm final : public FilmSink {
     return fmt::format("segment-{:08}-{:08}{}", segment.begin, segment.end, ending_);
   }
 
-  // Those that follow each other from picture 0 on, and have their pictures. Others go away, and what killed runs left.
+  // Keeps the consecutive segments from picture 0 on that have their pictures. Removes others, and what killed runs
+  // left.
   void find_segments(const OwnFolder& folder) {
     std::vector<Segment> found;
     for (const std::string& name : folder.names()) {
@@ -140,7 +141,7 @@ class EncodedFilm final : public FilmSink {
   }
 
   void end_segment() {
-    // It is no run any more, also if it fails.
+    // The run is over, even if it fails.
     const std::unique_ptr<FfmpegRun> run = std::move(run_);
     run->finish();
     const OwnFolder& folder = film_.folder();

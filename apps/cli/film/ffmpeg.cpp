@@ -25,7 +25,8 @@ extern char** environ;
 namespace bihive::cli {
 namespace {
 
-// After a signal: a run that neither reads nor computes for so long hangs, and no run lasts longer than the other time.
+// After a signal: a run that neither reads nor computes for the first time hangs, and no run may take longer than the
+// second.
 constexpr double kQuietMs = 1000, kMostMs = 4000;
 constexpr int kWaitMs = 20;
 // The end of what ffmpeg prints.
@@ -129,7 +130,7 @@ FfmpegRun::FfmpegRun(const std::string& ffmpeg, const std::vector<std::string>& 
   start(all, end_of_ffmpeg.get());
 }
 
-// With its streams, a process group of its own, and no signal blocked.
+// Starts it with its streams, its own process group, and no signal blocked.
 void FfmpegRun::start(const std::vector<std::string>& words, int input) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
@@ -184,7 +185,7 @@ void FfmpegRun::kill_all() {
   process_ = -1;
 }
 
-// `got_on`: it has taken bytes. Time on a processor counts too.
+// `got_on`: it has taken bytes. Processor time counts too.
 bool FfmpegRun::is_given_up(bool got_on) {
   if (!CancellableSection::token().cancelled()) return false;
   clockid_t clock = 0;
@@ -255,7 +256,7 @@ void FfmpegRun::fail_with_log(const std::string& what) {
 
 namespace {
 
-// ffmpeg says "frame=N" again and again; the last one counts. -1: it does not say so.
+// ffmpeg prints "frame=N" repeatedly; the last one counts. -1: none.
 std::int64_t counted(const std::string& ffmpeg, const OwnFolder& folder, const std::string& film, bool decoded) {
   std::vector<std::string> words{"-progress", "pipe:1", "-i", FfmpegRun::url(folder, film), "-map", "0:v:0"};
   if (!decoded) words.insert(words.end(), {"-c", "copy"});

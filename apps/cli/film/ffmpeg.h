@@ -18,24 +18,25 @@ namespace bihive::cli {
 std::string find_ffmpeg();
 
 /// One run of ffmpeg in a folder of a film. It does not see Ctrl-C: it ends when its input does. After a signal to this
-/// program a run that does not get on for a second is ended, and so is one that goes on for four.
+/// program a run without progress for a second is ended, and so is one that takes four.
 class FfmpegRun {
  public:
   enum class Input { none, pictures };
 
-  /// `words` follow the program's name. `folder` must outlive the run. Fails with kEnvironment if it does not start.
+  /// `words`: the arguments after the program's name. `folder` must outlive the run. Fails with kEnvironment if it does
+  /// not start.
   FfmpegRun(const std::string& ffmpeg, const std::vector<std::string>& words, const OwnFolder& folder, Input input);
   /// Ends it at once if it still runs.
   ~FfmpegRun();
   FfmpegRun(const FfmpegRun&) = delete;
   FfmpegRun& operator=(const FfmpegRun&) = delete;
 
-  /// How `words` name a file in the folder, whatever has become of the folder's path.
+  /// The name of a file in the folder for `words`, valid even if the folder is renamed.
   static std::string url(const OwnFolder& folder, const std::string& name);
 
-  /// Fails with kEnvironment if it has ended: with its own words. Throws Interrupted if it was ended after a signal.
+  /// Fails with kEnvironment if it has ended, with its own message. Throws Interrupted if it was ended after a signal.
   void write(const std::uint8_t* bytes, std::size_t size);
-  /// Ends its input, and waits. Fails with kEnvironment if it was not content. Throws Interrupted as write() does.
+  /// Ends its input, and waits. Fails with kEnvironment if it failed. Throws Interrupted as write() does.
   void finish();
   /// The end of its output, at most 4 kB.
   std::string output() const;

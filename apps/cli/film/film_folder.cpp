@@ -59,7 +59,7 @@ FilmFolder::FilmFolder(std::string output, FilmKind kind) : output_(std::move(ou
     return;
   }
   if (!parts) return;
-  // The rest of a killed run makes room for the new film.
+  // Remove the remains of a killed run.
   if (!all_own(*folder_)) fail_in_the_way(path_);
   folder_.reset();
 }
@@ -116,7 +116,7 @@ void FilmFolder::make_for_sequence() {
   if (alone_ || !text || *text != plan_text_) fail_other_film(plan_path());
 }
 
-// Everything under a name that nobody can guess, for a killed run shall leave no FILE.part without a picture.
+// Use an unguessable name, so that a killed run leaves no FILE.part without a picture.
 void FilmFolder::make_hidden() {
   const std::string around = folder_around(path_);
   remove_leftovers(parent_.get(), around);
@@ -187,7 +187,7 @@ void FilmFolder::lock() {
 }
 
 void FilmFolder::finish(const std::string& film) {
-  // The description comes first: a run that is killed before the film follows goes on, and loses nothing.
+  // The description comes first: a run killed before the film is moved resumes, and loses nothing.
   folder_->remove(kDescription);
   folder_->write_new(kDescription, plan_text_, kOfOutputs);
   if (const Status status = place_file(folder_->descriptor(), kDescription, cli::plan_path(output_), output_);
@@ -199,8 +199,8 @@ void FilmFolder::finish(const std::string& film) {
   remove_all();
 }
 
-// The folder is hidden first, so that one which is removed in part is not taken for a film that could go on. Files that
-// bihive has not made stay.
+// The folder is hidden first, so that a partly removed one is not taken for a film to resume. Files not made by bihive
+// stay.
 void FilmFolder::remove_all() {
   if (hidden_.empty() && all_own(*folder_)) {
     const std::string name = hidden_name();

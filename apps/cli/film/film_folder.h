@@ -1,7 +1,7 @@
 // The folder of a film that is being made: FILE.part of a film in one file, the folder of its pictures of a sequence.
 //
-// Nothing of it is there before a picture is whole. Until then FILE.part has a name that nobody can guess; a run that
-// is killed by then leaves no more than that, and the next run removes it.
+// It does not appear before a picture is complete. Until then FILE.part has an unguessable name; a run killed before
+// that leaves no more, and the next run removes it.
 #pragma once
 
 #include <deque>
@@ -20,8 +20,8 @@ namespace bihive::cli {
 /// All functions fail with kBadInput.
 class FilmFolder {
  public:
-  /// `output` is the film's, its links followed. Fails if something else is in the place of the folder, or if it may
-  /// not be trusted.
+  /// `output` is the film's, its links followed. Fails if something else has the folder's name, or if it is not to be
+  /// trusted.
   FilmFolder(std::string output, FilmKind kind);
   ~FilmFolder();
   FilmFolder(const FilmFolder&) = delete;
@@ -37,18 +37,18 @@ class FilmFolder {
   /// Hash of the description's bytes.
   std::uint64_t plan_hash() const;
 
-  /// The folder, if it is there.
+  /// The folder, if it exists.
   const OwnFolder* existing() const { return folder_ ? &*folder_ : nullptr; }
-  /// The folder; it is made, with the description.
+  /// The folder; it is created, with the description.
   const OwnFolder& folder();
-  /// Called when a picture is whole: the folder takes its final name, for the next run may go on with it.
+  /// Called when a picture is complete: the folder gets its final name, because the next run may continue with it.
   void keep();
-  /// A file of this run, which goes away if no picture becomes whole.
+  /// A file of this run, removed if no picture is completed.
   void note_file(const std::string& name);
 
-  /// `film` in the folder is the whole film: it and its description take their places, and the folder goes away.
+  /// `film` in the folder is the whole film: moves it and its description to their paths, and removes the folder.
   void finish(const std::string& film);
-  /// Leaves nothing behind if no picture is whole.
+  /// Leaves nothing if no picture is complete.
   void leave_nothing();
 
  private:

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file of a sequence that is this input too; empty if none is. Its number stands in the input's name.
+// The file of a sequence that is this input too; empty if none is. Its number is in the input's name.
 std::string picture_that_is(const std::string& input, const std::string& pattern) {
   constexpr const char* kDigits = "0123456789";
   constexpr std::size_t kMostDigits = 18;

@@ -1,4 +1,4 @@
-// The files that a film is made of, and those that it is made from.
+// The output and input files of a film.
 #pragma once
 
 #include <string>

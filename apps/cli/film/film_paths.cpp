@@ -18,13 +18,13 @@ std::string lower_ending(const std::string& output) {
   return ending;
 }
 
-// The place of the number in the name of a sequence: "%05d" or "%d".
+// The position of the number in the name of a sequence: "%05d" or "%d".
 struct NumberPlace {
   std::size_t begin = 0, size = 0;
   int digits = 0;
 };
 
-// Fails with kBadUsage unless there is one, behind the last '/'.
+// Fails with kBadUsage unless there is exactly one, after the last '/'.
 NumberPlace number_place(const std::string& pattern) {
   constexpr std::size_t kMostDigits = 2;
   const auto wrong = [&] {

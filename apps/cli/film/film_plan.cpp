@@ -34,7 +34,7 @@ Vec3d vector_of(const ordered_json& value) {
   return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
 }
 
-// A number with a fraction, or one that is too large, is none.
+// Fractions and numbers that are too large are refused.
 std::int64_t whole_of(const ordered_json& value, std::int64_t least, std::int64_t most) {
   const bool fits = value.is_number_integer() &&
                     (!value.is_number_unsigned() || value.get<std::uint64_t>() <= static_cast<std::uint64_t>(most));
@@ -162,7 +162,7 @@ FilmPlan parse_film_plan(const std::string& text, const std::string& path, const
   } catch (const ordered_json::exception&) {
     // Any other file.
   } catch (const std::out_of_range&) {
-    // A number that no film has.
+    // A number out of range for films.
   }
   fail({"is no description of a film", path, 0, 0,
         hint.empty() ? "bihive film writes one beside the film, with the ending .json" : hint});

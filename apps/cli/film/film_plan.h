@@ -1,4 +1,4 @@
-// The description of a film, in the file beside it: all that its pictures depend on besides their frames.
+// The description of a film, in the file beside it: everything that its pictures depend on besides their frames.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 namespace bihive::cli {
 
 struct FilmPlan {
-  /// The user's wishes and the input's file. A run goes on where another one was if they are equal.
+  /// The user's request and the input's file. A run resumes another one if they are equal.
   struct Asked {
     std::string program;           ///< its version
     nlohmann::ordered_json input;  ///< path, size and time of its files
     FrameList frames;              ///< of the input
-    std::int64_t pictures = 1;     ///< as many as frames; or of one frame
+    std::int64_t pictures = 1;     ///< one per frame; or all of one frame
     FrameRate rate;
     std::vector<std::string> options;  ///< of each picture
     CameraPath path;
@@ -26,7 +26,7 @@ struct FilmPlan {
     std::string codec;
   } asked;
 
-  /// From the film's first frame.
+  /// Values from the film's first frame.
   struct Fixed {
     int width_px = 0, height_px = 0;  ///< of a picture in the film
     Camera camera;                    ///< before it moves
@@ -44,12 +44,12 @@ std::string film_plan_to_json(const FilmPlan& plan);
 /// No film has more pictures.
 constexpr std::int64_t kMostPictures = 100'000'000;
 
-/// Fails with kBadInput if the file is no such description, or has numbers that no film has.
+/// Fails with kBadInput if the file is not such a description, or has numbers out of range.
 FilmPlan read_film_plan(const std::string& path);
 /// The same of its bytes; `path` and `hint`, if it is not empty, are for messages.
 FilmPlan parse_film_plan(const std::string& text, const std::string& path, const std::string& hint = "");
 
-/// The difference of two wishes, for a message: "its frames are ..., not ..."; empty: nothing.
+/// The difference of two requests, for a message: "its frames are ..., not ..."; empty: nothing.
 std::string difference(const FilmPlan::Asked& kept, const FilmPlan::Asked& asked);
 
 /// Sets the options' frame, camera and ranges to those of the picture that `options.picture_of_film` or

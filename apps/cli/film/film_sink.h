@@ -1,4 +1,4 @@
-// Where the pictures of a film go.
+// Destinations of a film's pictures.
 #pragma once
 
 #include <cstdint>
@@ -20,31 +20,31 @@ struct FilmPicture {
   PngText text;
 };
 
-/// All functions fail with a Failure; what is whole by then stays for the next run.
+/// All functions fail with a Failure; what is complete by then stays for the next run.
 class FilmSink {
  public:
   virtual ~FilmSink() = default;
 
-  /// Whether an earlier run has left the picture, whole and of the same film.
+  /// Whether an earlier run has left the picture, complete and of the same film.
   virtual bool has(std::int64_t number) const = 0;
-  /// The next picture that was missing, in rising order. From one thread.
+  /// Takes the next missing picture, in ascending order. From one thread.
   virtual void add(const FilmPicture& picture) = 0;
-  /// No more pictures come now: makes what is whole ready for the next run, and leaves nothing if nothing is.
+  /// No more pictures come now: prepares what is complete for the next run, and leaves nothing if nothing is.
   virtual void pause() = 0;
-  /// All pictures are there: the film takes its place.
+  /// All pictures are there: the film gets its path.
   virtual void finish() = 0;
 };
 
 /// The kinds of films, by the output's ending.
 enum class FilmKind { pictures, y4m, encoded };
 
-/// Fails with kBadUsage on another ending, or on a sequence without one place for the number.
+/// Fails with kBadUsage on another ending, or on a sequence without a unique position for the number.
 FilmKind film_kind(const std::string& output);
 
 /// Fails with kBadUsage if the file to which the film's output leads has another ending.
 void check_link_of_film(const std::string& link, const std::string& film);
 
-/// The file beside the film: run.mp4.json, or film.json for run/%05d.png.
+/// The description's file beside the film: run.mp4.json, or film.json for run/%05d.png.
 std::string plan_path(const std::string& output);
 
 /// The path of one picture of a sequence.
@@ -59,13 +59,13 @@ std::string shard_picture_path(const std::string& output, std::int64_t number);
 /// A film as PNG files.
 struct SequenceForm {
   std::string output;
-  bool store = false;        ///< pictures of a shard, which wait in part_path() whatever the kind is
+  bool store = false;        ///< pictures of a shard, which wait in part_path() for every kind
   Shard shard;               ///< that draws them
   PictureNumbers wanted;     ///< its pictures
   double dots_per_inch = 0;  ///< as for encode_png()
 };
 
-/// All of these make the folder when the first picture comes. They fail where something else has the name of a picture.
+/// All of these create the folder when the first picture comes. They fail if something else has the name of a picture.
 std::unique_ptr<FilmSink> open_sequence(FilmFolder& film, SequenceForm form);
 std::unique_ptr<FilmSink> open_y4m(const FilmPlan& plan, FilmFolder& film);
 /// `ffmpeg`: the program's path.

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kMostOfRate = 1'000'000;
 
 Error rate_error(const std::string& text) {
-  return {"expected pictures a second, a number from 0.001 to 1000000 such as 25, 29.97 or 30000/1001, found \"" +
+  return {"expected pictures per second, a number from 0.001 to 1000000 such as 25, 29.97 or 30000/1001, found \"" +
               text + "\"",
           "", 0, 0, ""};
 }

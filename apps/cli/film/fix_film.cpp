@@ -24,10 +24,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The seconds of a film that shows one frame from all sides.
+// Duration in seconds of a film that shows one frame from all sides.
 constexpr double kSecondsOfTurn = 10;
 
-// A file by its path, size and time; a name for anything else.
+// Identifies a file by its path, size and time; anything else by its name.
 ordered_json described_file(const std::string& path) {
   ordered_json object = {{"path", path}};
   struct stat found {};

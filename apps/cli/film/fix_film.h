@@ -1,4 +1,4 @@
-// From the user's options to the description of a film.
+// Makes the description of a film from the user's options.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace bihive::cli {
 
-/// Of an input with so many frames. Fails where options contradict each other or the input.
+/// For an input with this number of frames. Fails if options contradict each other or the input.
 FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames);
 
 /// Camera, size and ranges of colours, from the film's first frame; the ranges from all its frames if the user wants

@@ -109,7 +109,7 @@ class FilmSteps {
   }
 
  private:
-  // Runs a step. Its first failure ends all steps.
+  // Runs a step. The first failure ends all steps.
   template <class Step>
   void guarded(const Step& step) {
     try {
@@ -125,7 +125,7 @@ class FilmSteps {
     }
     read_.close();
     built_.close();
-    drawn_.end();  // what is drawn is still written
+    drawn_.end();  // finished pictures are still written
   }
 
   void read_all() {
@@ -198,7 +198,7 @@ class FilmSteps {
   // Whether allocations fail where a control group has no more memory: see main.cpp.
   bool is_limited() const { return communicator() == nullptr && film_kind(options_.output) != FilmKind::encoded; }
 
-  // With a ranks the picture is whole when all have done their share.
+  // With ranks, the picture is complete when all have done their share.
   void draw(const BuiltPicture& picture, PngPixels& drawn, const ProgressCallback& update) {
     PixelsInMemory pixels(picture, drawn);
     const RenderEngine engine = choose_engine(options_);

@@ -10,10 +10,10 @@
 
 namespace bihive::cli {
 
-/// Reads, builds, traces and writes these pictures, each step on a thread of its own; between two steps one picture
-/// waits at most. Shows progress. After a signal or a failure the sink has paused: it throws Interrupted, or the
-/// failure. The caller has a CancellableSection. `ranks`: null, or those who draw each picture together; its rank 0 has
-/// the sink, and the others have none. Throws OtherRankFailed where another one of them has failed.
+/// Reads, builds, traces and writes these pictures, each step on its own thread; at most one picture waits between two
+/// steps. Shows progress. After a signal or a failure the sink has paused: it throws Interrupted, or the failure. The
+/// caller has a CancellableSection. `ranks`: null, or those that draw each picture together; its rank 0 has the sink,
+/// and the others have none. Throws OtherRankFailed if another one of them has failed.
 FilmTimes make_film(const FrameSource& source, const FilmPlan& plan, const RenderOptions& options, const Style& style,
                     const PictureNumbers& pictures, FilmSink* sink, PictureCommunicator* ranks);
 

@@ -1,8 +1,8 @@
-// The index of a sequence lists the pictures that bihive itself has written, so that a file that was there before is
-// not taken for one of them.
+// The index of a sequence lists the pictures that bihive itself has written, so that an older file is not taken for one
+// of them.
 //
-// A text file to which a line is added before each picture takes its place. The first line names the film; each other
-// one has number, bytes and hash of a picture. A kill may leave the last line cut, which is then no line.
+// A text file; a line is appended before each picture appears. The first line names the film; each other one has
+// number, bytes and hash of a picture. A kill may truncate the last line, which is then ignored.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,14 @@ struct IndexEntry {
   }
 };
 
-/// 64-bit FNV-1a; `before`: the hash of the bytes before these.
+/// 64-bit FNV-1a; `before`: the hash of the preceding bytes.
 std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325u);
 
 /// The first line; `film`: hash of the film's description.
 std::string index_head(std::uint64_t film);
 std::string index_line(const IndexEntry& entry);
 
-/// Its entries; nothing if it is not the index of this film. Lines that are none are left out.
+/// Its entries; nothing if it is not the index of this film. Malformed lines are ignored.
 std::optional<std::vector<IndexEntry>> index_entries(std::string_view text, std::uint64_t film);
 
 /// The bytes of its whole lines.

@@ -1,5 +1,4 @@
-// Numbers of pictures, rising, in a few bytes for all of them: those of a film or of its shard, those that are there,
-// those that are missing.
+// A compact ascending list of picture numbers: those of a film or of its shard, present or missing ones.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 
 namespace bihive::cli {
 
-/// Numbers at equal steps are kept as one run.
+/// Numbers with equal steps are stored as one run.
 class PictureNumbers {
  public:
   struct Run {

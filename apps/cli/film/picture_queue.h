@@ -1,4 +1,4 @@
-// A queue between two threads of a film, with room for a few things: whoever is faster waits.
+// A bounded queue between two threads of a film: the faster one waits.
 #pragma once
 
 #include <chrono>
@@ -13,13 +13,13 @@
 
 namespace bihive::cli {
 
-/// Nobody waits any more once the token is set, which a signal does without waking anybody.
+/// Waiting ends once the token is set, which a signal does without waking threads.
 template <class T>
 class PictureQueue {
  public:
   PictureQueue(std::size_t room, const CancelToken& cancel) : room_(room), cancel_(cancel) {}
 
-  /// False if the queue is closed: the thing is lost then.
+  /// False if the queue is closed: the item is then lost.
   bool push(T thing) {
     std::unique_lock<std::mutex> lock(mutex_);
     wait(lock, [this] { return closed_ || things_.size() < room_; });
@@ -29,7 +29,7 @@ class PictureQueue {
     return true;
   }
 
-  /// The next thing; nothing after the end.
+  /// The next item; nothing after the end.
   std::optional<T> pop() {
     std::unique_lock<std::mutex> lock(mutex_);
     wait(lock, [this] { return closed_ || ended_ || !things_.empty(); });
@@ -40,9 +40,9 @@ class PictureQueue {
     return thing;
   }
 
-  /// No more things will come; those that are there are still handed out.
+  /// No more items will come; the present ones are still handed out.
   void end() { set(ended_); }
-  /// Nobody wants things any more.
+  /// No more items are wanted.
   void close() { set(closed_); }
 
  private:

@@ -1,4 +1,4 @@
-// A film as PNG files: the sequence that the user asked for, or the pictures of a shard.
+// A film as PNG files: the requested sequence, or the pictures of a shard.
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -55,7 +55,7 @@ class PictureSequence final : public FilmSink {
     const std::string bytes = value_or_fail(encode_png(picture.pixels, picture.text, form_.dots_per_inch));
     const OwnFolder& folder = film_.folder();
     if (!index_) open_index(folder);
-    // The index knows the picture before it is there, so a kill leaves no picture that it does not know.
+    // The index gets the picture before it exists, so a kill leaves no unknown picture.
     const IndexEntry entry{picture.number, bytes.size(), hash_of(bytes)};
     if (!knows(entry)) append(index_line(entry));
     const std::string name = name_of(picture.number);
@@ -104,7 +104,7 @@ class PictureSequence final : public FilmSink {
               [](const IndexEntry& a, const IndexEntry& b) { return a.number < b.number; });
   }
 
-  // A picture that is there is one of the film, or it is refused.
+  // An existing picture belongs to the film, or is refused.
   void find_pictures(const OwnFolder& folder) {
     for (const std::int64_t number : form_.wanted) {
       const std::string name = name_of(number);
@@ -121,7 +121,7 @@ class PictureSequence final : public FilmSink {
     return knows({number, static_cast<std::uint64_t>(info.st_size), hash_of_file(file->get(), folder.path_of(name))});
   }
 
-  // A picture may have several entries, if runs were killed before it was there.
+  // A picture may have several entries, if runs were killed before it existed.
   bool knows(const IndexEntry& picture) const {
     auto entry = std::lower_bound(entries_.begin(), entries_.end(), picture.number,
                                   [](const IndexEntry& a, std::int64_t b) { return a.number < b; });
@@ -130,8 +130,7 @@ class PictureSequence final : public FilmSink {
     return false;
   }
 
-  // The lock ends with the program. An index of another film, which lies there without that film's description, goes
-  // away.
+  // The lock ends with the program. An index of another film, without that film's description, is removed.
   void open_index(const OwnFolder& folder) {
     if (folder.write_new(index_name_, "", kOwnerWrites)) film_.note_file(index_name_);
     index_ = folder.open_file(index_name_, O_RDWR | O_APPEND);

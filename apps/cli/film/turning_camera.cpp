@@ -22,7 +22,7 @@ std::vector<Vec3d> corners_of_cell(const SphereSet& spheres, const RenderSetting
 
 Camera camera_around(const Input& input, const Camera& camera, const RenderOptions& options,
                      const RenderSettings& settings) {
-  // The ball around the middle of all bounds that holds everything.
+  // The ball around the centre of all bounds that contains everything.
   const RemainingSpheres remaining(input.scene);
   const SphereSet::Bounds bounds = remaining.set().bounds();
   Vec3d lo = bounds.lo, hi = bounds.hi;

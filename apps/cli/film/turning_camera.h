@@ -8,8 +8,8 @@
 
 namespace bihive::cli {
 
-/// A camera in the direction of `camera` that looks at the middle of the spheres (and of the cell, if that is drawn),
-/// and sees all of them from every side.
+/// A camera in the direction of `camera`, aimed at the centre of the spheres (and of the cell, if that is drawn), that
+/// sees all of them from every side.
 Camera camera_around(const Input& input, const Camera& camera, const RenderOptions& options,
                      const RenderSettings& settings);
 

@@ -1,7 +1,7 @@
 // A film as YUV4MPEG2: pictures without compression, which every program for films reads.
 //
-// The format has luma and two differences of colour. ITU-R BT.601 with limited range is what programs take where a
-// file says nothing else, and the format cannot say it. No sample is left out (C444).
+// The format has luma and two differences of colour. Programs assume ITU-R BT.601 with limited range, which the format
+// cannot state. Colours are not subsampled (C444).
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -67,7 +67,7 @@ class Y4mFilm final : public FilmSink {
   }
 
  private:
-  // Made as ffmpeg makes its files; the folder is the owner's alone.
+  // Created with the same mode as ffmpeg's files; the folder is private.
   void begin(const OwnFolder& folder) {
     path_ = folder.path_of(kName);
     folder.write_new(kName, "", kOfOutputs);
@@ -77,7 +77,7 @@ class Y4mFilm final : public FilmSink {
     keep_whole_pictures();
   }
 
-  // The rest after the last whole picture, left by a killed program, goes away.
+  // Truncate what a killed program left after the last whole picture.
   void keep_whole_pictures() {
     struct stat found {};
     if (fstat(file_.get(), &found) != 0) fail_of_system("cannot be read", path_, errno);

@@ -20,8 +20,8 @@ bool is_loopback(const std::string& address);
 /// 0.0.0.0 or ::, every address of this machine.
 bool is_every_address(const std::string& address);
 
-/// The addresses of this machine's network interfaces that are up: IPv4, and IPv6 if `with_ipv6` (without addresses
-/// that hold on one link only). Loopback is left out.
+/// The addresses of this machine's active network interfaces: IPv4, and IPv6 if `with_ipv6` (without addresses that
+/// hold on one link only). Loopback is left out.
 std::vector<std::string> own_addresses(bool with_ipv6);
 
 /// "http://ADDRESS:PORT/".

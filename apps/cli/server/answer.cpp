@@ -13,7 +13,7 @@ namespace bihive::cli {
 namespace {
 
 // Allows the page's own scripts, workers and WebAssembly, and pictures that the page makes; forbids everything from
-// other places. Scripts may set styles on elements without permission; style attributes and style elements need it.
+// other origins. Scripts may set styles on elements without permission; style attributes and style elements need it.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; connect-src 'self' blob:; "
     "img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; font-src 'self'; manifest-src 'self'; "
@@ -35,7 +35,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-// The parts of a list that is separated by commas.
+// The items of a comma-separated list.
 std::vector<std::string_view> listed(std::string_view text) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
@@ -100,7 +100,7 @@ std::optional<ByteRange> range_from(std::string_view text, std::uint64_t size) {
   return ByteRange{first, std::min(last, size - 1)};
 }
 
-// Answers with the content, with the requested part of it, or with the message that the browser's copy is still right.
+// Answers with the content, with the requested range of it, or with the message that the browser's copy is still right.
 Answer send(const Question& question, Content content, const std::string& tag, Answer found) {
   add_common_headers(found);
   found.headers.emplace_back("ETag", tag);
@@ -138,7 +138,7 @@ Answer send_page_file(const Question& question, const PageFile& file) {
 }
 
 Answer send_named_file(const Question& question, const std::string& path) {
-  // The present content: a file that was written anew is sent anew.
+  // The current content: a rewritten file is sent again.
   const auto file = OpenFile::open(path);
   if (!file) return refusal(404, "the file cannot be read any more");
   Answer found;
@@ -171,7 +171,7 @@ Answer refusal(int status, const std::string& text) {
 namespace {
 
 Answer answer_whole(const Site& site, const Question& question) {
-  // The body was not read, so the next bytes on this connection are not a request.
+  // The body was not read, so the following bytes on this connection are not a request.
   const auto last_words = [](Answer refused) {
     refused.close = true;
     return refused;

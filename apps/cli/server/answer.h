@@ -22,7 +22,7 @@ struct Question {
   bool has_body = false;
 };
 
-/// Bytes in memory, or a part of an open file; `size` of them from `offset` on.
+/// Bytes in memory, or a range of an open file; `size` of them from `offset` on.
 struct Content {
   std::shared_ptr<const std::string> bytes;
   std::shared_ptr<const OpenFile> file;
@@ -48,7 +48,7 @@ struct Site {
 };
 
 /// Never fails. 400: malformed; 403: a Host header of another machine, which a page of another site could send (DNS
-/// rebinding); 404; 405: neither GET nor HEAD; 413: a request with a body; 416: a range outside of the file.
+/// rebinding); 404; 405: neither GET nor HEAD; 413: a request with a body; 416: a range outside the file.
 Answer answer(const Site& site, const Question& question);
 
 /// An answer of plain text.

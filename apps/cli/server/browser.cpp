@@ -30,7 +30,7 @@ void open_browser(const std::string& url) {
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
 
-  // The shell starts xdg-open in the background and ends, so nobody has to wait for either.
+  // The shell starts xdg-open in the background and ends, so there is no need to wait for either.
   std::string shell = "sh";
   std::string flag = "-c";
   std::string script = "xdg-open \"$0\" &";

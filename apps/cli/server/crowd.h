@@ -1,4 +1,4 @@
-// Who has to go when a server is full. Nothing here knows of sockets.
+// Chooses the connection to drop when a server is full. Independent of sockets.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ class Crowd {
     virtual ~Member() = default;
     Member(const Member&) = delete;
     Member& operator=(const Member&) = delete;
-    /// Ends the connection. The crowd has let it go before.
+    /// Ends the connection, after its removal from the crowd.
     virtual void drop() = 0;
 
    private:
@@ -35,12 +35,12 @@ class Crowd {
 
   std::size_t size() const;
 
-  /// The member comes, moves within its group (it has taken a part of its answer), or goes to another one.
+  /// Adds the member, moves it within its group (it has taken some of its answer), or to another group.
   void move(Member& member, Group group);
   void leave(Member& member);
 
-  /// Drops the member that has not moved for longest, of the largest group: so those who say nothing make room for
-  /// those who do, and those who take an answer slowly for those who take theirs. False: nobody is there.
+  /// Drops the longest inactive member of the largest group: so silent clients yield to active ones, and slow readers
+  /// to fast ones. False: there is none.
   bool drop_one();
 
  private:

@@ -39,15 +39,15 @@ constexpr std::chrono::seconds kPatience{30};
 // could drop the answer.
 constexpr std::chrono::seconds kPatienceAtTheEnd{2};
 constexpr std::size_t kMostDiscarded = 1 << 20;
-// So much of an answer must be taken within the patience above, and lies in memory for each connection.
+// Bytes of an answer that must be taken within the patience above, held in memory per connection.
 constexpr std::size_t kChunkBytes = 64 * 1024;
-// On its way in the system. Left alone, Linux takes megabytes for each reader that is slow, until all of them suffer.
+// Socket buffer size. By default, Linux takes megabytes for each slow reader, until all of them suffer.
 constexpr int kSentBytes = 128 * 1024;
 constexpr std::uint32_t kMostHeaderBytes = 16 * 1024;
 constexpr std::size_t kMostConnections = 1000;
 constexpr std::size_t kFewestConnections = 8;
 constexpr std::size_t kOtherDescriptors = 40;    // of the program
-constexpr std::chrono::milliseconds kRest{200};  // where the system has no descriptor or memory for a connection
+constexpr std::chrono::milliseconds kRest{200};  // when the system has no descriptor or memory for a connection
 
 std::string text_of(beast::string_view text) {
   return {text.data(), text.size()};
@@ -77,7 +77,7 @@ Question question_from(const http::request_parser<http::empty_body>& parser) {
   return question;
 }
 
-// The number of connections for which there are descriptors; each may have FILE open too. Asks for as many as it wants.
+// The number of connections for which there are descriptors; each may have FILE open too. Raises the limit if possible.
 std::size_t room_for_connections() {
   constexpr rlim_t kWanted = 2 * kMostConnections + kOtherDescriptors;
   rlimit limit{};
@@ -111,7 +111,7 @@ class Connection : public std::enable_shared_from_this<Connection>, public Crowd
     parser_->header_limit(kMostHeaderBytes);
     // The answer refuses bodies, not the parser.
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());
-    // For all of the head, however slowly it comes.
+    // The time limit of the whole head, however slowly it comes.
     stream_.expires_after(kPatience);
     http::async_read_header(stream_, buffer_, *parser_,
                             [self = shared_from_this()](error_code code, std::size_t) { self->on_read(code); });
@@ -225,7 +225,7 @@ Error cannot_listen(const std::string& address, int port, const error_code& code
 struct HttpServer::State {
   explicit State(std::function<Answer(const Question&)> said) : handler(std::move(said)) {}
 
-  // From now on these signals end run(), not the program. Ignored signals stay ignored (nohup).
+  // Makes these signals end run(), not the program. Ignored signals stay ignored (nohup).
   void take_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       struct sigaction now {};
@@ -260,7 +260,7 @@ struct HttpServer::State {
   std::function<Answer(const Question&)> handler;
   Crowd crowd;
   std::size_t most_connections = kFewestConnections;
-  // Declared last, so that it is destroyed first: it ends pending connections, and these leave the crowd above.
+  // Declared last, so that it is destroyed first: it ends pending connections, which leave the crowd above.
   asio::io_context context{1};
   asio::signal_set signals{context};
   Tcp::acceptor acceptor{context};

@@ -1,4 +1,4 @@
-// FILE of `bihive web`: the only file outside of the page that can be fetched.
+// FILE of `bihive web`: the only file outside the page that can be fetched.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace bihive::cli {
 
-/// A regular file that is open for reading.
+/// A regular file, open for reading.
 class OpenFile {
  public:
   /// Errors: missing, unreadable, not a regular file.

@@ -7,11 +7,11 @@
 
 namespace bihive::cli {
 
-/// Everything but letters, digits and - . _ ~ as %XX.
+/// Escapes everything except letters, digits and - . _ ~ as %XX.
 std::string url_escaped(std::string_view text);
 
 /// The path of a request's target, escapes undone, without query and fragment. Nothing if the target does not begin
-/// with '/', or if an escape is broken or stands for a slash or NUL: no file has such a name.
+/// with '/', or if an escape is broken or means a slash or NUL: no file has such a name.
 std::optional<std::string> url_path(std::string_view target);
 
 /// The machine in a Host header, in small letters, a numeric address in its usual spelling, without brackets. Nothing

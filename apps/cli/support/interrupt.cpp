@@ -22,7 +22,7 @@ std::atomic<std::int64_t> g_first_ms{0};
 CancelToken g_token;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
-// A signal that follows the first one so soon is the same request: timeout(1) sends each of its signals twice.
+// A signal that follows the first within this time is the same request: timeout(1) sends each of its signals twice.
 constexpr std::int64_t kSameRequestMs = 300;
 
 std::int64_t now_ms() {
@@ -131,7 +131,7 @@ RemovedWhenEnded::RemovedWhenEnded(const std::string& path, int folder) {
     char* const place = g_unfinished[i];
     if (place[0] != 0) continue;
     g_folders[i] = folder < 0 ? AT_FDCWD : folder;
-    // The first byte comes last, so that a signal finds the whole path.
+    // The first byte is written last, so that a signal finds the whole path.
     std::memcpy(place + 1, path.c_str() + 1, path.size());
     std::atomic_signal_fence(std::memory_order_release);
     place[0] = path[0];

@@ -15,8 +15,8 @@ namespace bihive::cli {
 /// limit becomes an ordinary error of writing.
 void handle_signals();
 
-/// During the life of such an object the first signal sets token(), so that long work stops by itself. Another signal,
-/// a moment later, ends the program at once.
+/// While it exists, the first signal sets token(), so that long work stops by itself. Another signal, a moment later,
+/// ends the program at once.
 class CancellableSection {
  public:
   CancellableSection();
@@ -29,9 +29,9 @@ class CancellableSection {
   static void leave_if_cancelled();
 };
 
-/// During the life of such an object files are being written. Signals are dropped, because the work is done. The first
-/// signal afterwards is dropped too (only blocked output can still take time; a second signal ends it). So exit code
-/// 130 after one Ctrl-C means that there is no file.
+/// While it exists, files are being written. Signals are dropped, because the work is done. The first signal afterwards
+/// is dropped too (only blocked output can still take time; a second signal ends it). So exit code 130 after one Ctrl-C
+/// means that there is no file.
 class WritingSection {
  public:
   WritingSection();
@@ -40,8 +40,8 @@ class WritingSection {
   WritingSection& operator=(const WritingSection&) = delete;
 };
 
-/// During the life of such an object a signal ends the program at once, inside of a cancellable section too: the
-/// program may wait for somebody who reads a pipe, and look at no token.
+/// While it exists, a signal ends the program at once, even in a cancellable section: the program may wait for the
+/// reader of a pipe, and check no token.
 class StreamSection {
  public:
   /// `active`: false makes it do nothing.
@@ -55,9 +55,9 @@ class StreamSection {
   bool active_;
 };
 
-/// During the life of such an object a signal that ends the program removes this file or empty folder first, the
-/// latest one of all before the others; an empty path is none. `folder`: an open folder that the path starts from; -1:
-/// the current one. At most eight live at a time.
+/// While it exists, a signal that ends the program first removes this file or empty folder, the latest one before the
+/// others; an empty path means none. `folder`: an open folder that the path is relative to; -1: the current one. At
+/// most eight exist at a time.
 class RemovedWhenEnded {
  public:
   explicit RemovedWhenEnded(const std::string& path, int folder = -1);
@@ -69,8 +69,8 @@ class RemovedWhenEnded {
   char* place_ = nullptr;
 };
 
-/// During the life of such an object the end of this program by a signal ends a process group too: programs that this
-/// one has started. At most two live at a time.
+/// While it exists, a signal that ends this program also ends a process group: programs that this one has started. At
+/// most two exist at a time.
 class KilledWhenEnded {
  public:
   explicit KilledWhenEnded(int group);
@@ -82,7 +82,7 @@ class KilledWhenEnded {
   std::size_t at_;
 };
 
-/// Removes the files and ends the groups of all that live. For handlers: it only calls unlinkat() and kill().
+/// Removes the files and ends the groups of all existing objects. For handlers: it only calls unlinkat() and kill().
 void remove_unfinished();
 
 }  // namespace bihive::cli

@@ -6,7 +6,7 @@
 
 namespace bihive::cli {
 
-// Linux hands ru_maxrss on through exec(): it would be that of a large program which called this one.
+// Linux keeps ru_maxrss through exec(): it would be that of a large program that called this one.
 double peak_memory_bytes() {
   double kilobytes = 0;
   if (std::FILE* const status = std::fopen("/proc/self/status", "re")) {

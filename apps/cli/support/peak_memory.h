@@ -1,9 +1,9 @@
-// What the program took of the memory.
+// Peak memory of the program.
 #pragma once
 
 namespace bihive::cli {
 
-/// The largest resident set so far, in bytes.
+/// The peak resident set size, in bytes.
 double peak_memory_bytes();
 
 }  // namespace bihive::cli

@@ -17,7 +17,7 @@ Files files_of(const InputOptions& input) {
   return {file_of(input), data_path(input.reading.options().trajectory).file};
 }
 
-// The options that commands share that draw.
+// The options shared by commands that draw.
 template <class Options>
 Files files_of_drawing(const Options& options) {
   return together(
@@ -46,7 +46,7 @@ Files inputs_of(const ConvertOptions& options) {
   return files_of(options.input);
 }
 
-// The older results of --against are not among them: they are read before a run writes its own over them.
+// The older results of --against are not among them: they are read before a run overwrites them.
 Files inputs_of(const ThesisOptions& options) {
   return options.devices;
 }

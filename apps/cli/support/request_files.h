@@ -1,5 +1,5 @@
-// The files of a request: all that its options name, input by input and output by output. Whoever adds an option that
-// names a file adds it here (tests/cli/request_files_test.py finds it from the description of the command line).
+// The files named by a request's options, inputs and outputs. An option that names a file must be added here
+// (tests/cli/request_files_test.py finds it from the description of the command line).
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace bihive::cli {
 
 /// The files that a request reads, as far as its options name them; files that name more files (scenes) say so when
-/// they are read (LoadedScene::files). Names that are no files, "-" and empty texts may be among them.
+/// they are read (LoadedScene::files). Names that are not files, "-" and empty texts may be among them.
 std::vector<std::string> inputs_of(const RenderOptions& options);
 std::vector<std::string> inputs_of(const FilmOptions& options);
 std::vector<std::string> inputs_of(const ViewOptions& options);

@@ -8,8 +8,8 @@
 
 namespace bihive::cli {
 
-/// Renews the limit (base/memory.h) with room for what threads reserve for their rays beyond what they touch. 0: all
-/// threads.
+/// Renews the limit (base/memory.h) with allowance for memory that threads reserve for their rays but do not touch. 0:
+/// all threads.
 inline void renew_group_limit_for_threads(std::int64_t threads) {
   constexpr double kReservedByThread = 24 << 20;
   turn_group_limit_into_failing_allocations(kReservedByThread *

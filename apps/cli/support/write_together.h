@@ -12,8 +12,8 @@ struct FileToWrite {
   std::string_view bytes;
 };
 
-/// Writes the regular files aside first, then the pipes and devices, then all regular files take their places, or none.
-/// Fails with the first error. Signals wait while files are written, but not while a pipe is (interrupt.h).
+/// Writes the regular files under temporary names, then the pipes and devices, then renames all regular files, or none.
+/// Fails with the first error. Signals are deferred while files are written, but not while a pipe is (interrupt.h).
 void write_together(const std::vector<FileToWrite>& files);
 
 }  // namespace bihive::cli

@@ -11,7 +11,7 @@ std::string joined(const std::vector<std::string>& words, const std::string& sep
   return text;
 }
 
-// "render:--view" of a case statement, and what it offers.
+// "render:--view" of a case statement, and its candidates.
 std::string value_case(const std::string& command, const OptionWords& option) {
   std::vector<std::string> patterns;
   for (const std::string& name : option.names) patterns.push_back(command + ":" + name);

@@ -26,7 +26,7 @@ std::string option_line(const std::string& condition, const OptionWords& option)
   for (const std::string& name : option.names)
     text += name.compare(0, 2, "--") == 0 ? " -l " + name.substr(2) : " -s " + name.substr(1);
   if (option.takes_value) {
-    // -r: a value follows; -f: it is no file; -F: it is.
+    // -r: a value follows; -f: it is not a file; -F: it is.
     text += option.candidates.files ? " -r -F" : " -r -f";
     const std::string words = words_of(option.candidates);
     if (!words.empty()) text += " -a " + fish_quoted(words);

@@ -8,8 +8,8 @@
 namespace bihive::cli {
 namespace {
 
-// Text for roff: a backslash, a hyphen that people copy, and letters beyond ASCII have names of their own; a line that
-// begins with a point or a quote would be a request.
+// Escapes text for roff: a backslash, a hyphen that people copy, and letters beyond ASCII have names of their own; a
+// line that begins with a period or a quote would be a request.
 std::string roff(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -25,7 +25,7 @@ std::string roff(const std::string& text) {
     } else if (byte < 0x80) {
       out += text[i];
     } else {
-      // UTF-8: the first byte says how many follow.
+      // UTF-8: the first byte tells how many follow.
       const int more = byte >= 0xf0 ? 3 : byte >= 0xe0 ? 2 : 1;
       std::uint32_t code = byte & (0x3fu >> more);
       for (int k = 0; k < more && i + 1 < text.size(); ++k)

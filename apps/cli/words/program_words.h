@@ -1,5 +1,4 @@
-// The words of the command line as data. Manual pages and completions are written from them, so that they say what
-// --help says.
+// The command line as data. Manual pages and completions are generated from it, so that they match --help.
 #pragma once
 
 #include <string>
@@ -7,7 +6,7 @@
 
 namespace bihive::cli {
 
-/// The words that may stand in the place of a value, as far as a shell can offer them.
+/// The candidates for a value, as far as a shell can offer them.
 struct Candidates {
   std::vector<std::string> words;  ///< "shaded", "tree"
   bool files = false;
@@ -15,9 +14,9 @@ struct Candidates {
 };
 
 struct OptionWords {
-  std::vector<std::string> names;  ///< "-o", "--output"; none: a place without a name
-  std::string place;               ///< "INPUT", if it is a word without a name; else empty
-  std::string type;                ///< "WxH"; empty: a switch, or a place that its name describes
+  std::vector<std::string> names;  ///< "-o", "--output"; none: a positional argument
+  std::string place;               ///< "INPUT", if it is a positional argument; else empty
+  std::string type;                ///< "WxH"; empty: a switch, or an argument that its name describes
   std::string help;                ///< in one line
   bool required = false;
   bool takes_value = false;

@@ -33,7 +33,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-// "N|auto" offers auto: a word in lower case stands for itself, one in upper case for something that it names.
+// "N|auto" offers auto: a keyword in lower case means itself, one in upper case for a kind of value.
 bool stands_for_itself(const std::string& word) {
   constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_-.";
   return !word.empty() && word.find_first_not_of(kAllowed) == std::string::npos;
@@ -93,7 +93,7 @@ CommandWords read_command(const CLI::App& app) {
   return words;
 }
 
-// A line for each option: its command, its name, what it takes ("-": nothing), and "files" if that may be one.
+// A line for each option: its command, its name, its value ("-": none), and "files" if that may be one.
 std::string list_of_options(const ProgramWords& program) {
   std::string text;
   for (const CommandWords& command : program.commands)

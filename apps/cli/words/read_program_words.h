@@ -1,4 +1,4 @@
-// From CLI11's description of the command line to plain data.
+// Converts CLI11's description of the command line to plain data.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace bihive::cli {
 ProgramWords read_program_words(const CLI::App& app);
 
 /// The answer to `bihive describe WORDS...`, a command that --help does not list because only the build calls it:
-///   commands              the names of all commands, one a line
+///   commands              the names of all commands, one per line
 ///   man [COMMAND]         the manual page of the program or of a command
 ///   bash, zsh, fish       the completion for a shell
 /// Fails with kBadUsage on anything else.

@@ -29,7 +29,7 @@ void shorten_help(CLI::App& command) {
   for (CLI::Option* option : named) {
     const auto is_common = [option](const char* name) { return option->check_name(name); };
     if (std::none_of(kCommonOptions.begin(), kCommonOptions.end(), is_common)) option->group("");
-    // Contradictions stand in the long help.
+    // Exclusions are listed in the long help.
     const std::set<CLI::Option*> excluded = option->get_excludes();
     for (CLI::Option* other : excluded) option->remove_excludes(other);
   }

@@ -1,4 +1,4 @@
-// The short help of a command with many options, and advice on options that it does not have.
+// The short help of a command with many options, and advice on unknown options.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ class App;
 
 namespace bihive::cli {
 
-/// Hides all but the common options of a command with many, and says where the others are.
+/// Hides all except the common options of a command with many, and tells where the others are.
 void shorten_help(CLI::App& command);
 
-/// Advice on arguments that a command does not take: the nearest option, if one is near, then `otherwise`.
+/// Advice on unknown arguments of a command: the nearest option, if one is near, then `otherwise`.
 std::string advice_on(const CLI::App* command, const std::vector<std::string>& unknown, const std::string& otherwise);
 
 }  // namespace bihive::cli

@@ -7,10 +7,10 @@
 (60, 80, 3)
 
 Spheres, read       spheres of arrays, of a file; Spheres.save, convert: into a file
-render, film        pictures and films of them; Orthographic, Perspective, Look, Style decide how they look
-Tree                what rays hit
+render, film        pictures and films of them; Orthographic, Perspective, Look, Style determine their appearance
+Tree                hits of rays
 view                the page in a browser, with spheres from memory
-select, stats       which spheres an expression takes; the trees in numbers
+select, stats       spheres that match an expression; statistics of the trees
 colour_map          colours of numbers
 Error               the base of all exceptions of this package
 """

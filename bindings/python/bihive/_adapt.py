@@ -1,4 +1,4 @@
-"""Atoms of other packages as Spheres, by what they can do: none of these packages is imported."""
+"""Atoms of other packages as Spheres, recognised by their attributes: none of these packages is imported."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def _of_ase(atoms: Any) -> Spheres:
 
 
 def _attribute(group: Any, name: str) -> Any:
-    """What a topology may lack; MDAnalysis raises exceptions of its own then."""
+    """An attribute that a topology may lack; MDAnalysis then raises its own exceptions."""
     try:
         return getattr(group, name)
     except (AttributeError, ValueError, TypeError):
@@ -103,7 +103,8 @@ def _elements_of(group: Any) -> Optional[list[str]]:
     return None
 
 
-# Standard atomic weights, rounded, of what simulations of molecules hold; no two are nearer than twice the tolerance.
+# Standard atomic weights, rounded, of the elements in molecular simulations; no two are nearer than twice the
+# tolerance.
 _WEIGHTS = {
     "H": 1.008, "He": 4.0026, "Li": 6.94, "B": 10.81, "C": 12.011, "N": 14.007, "O": 15.999, "F": 18.998,
     "Ne": 20.180, "Na": 22.990, "Mg": 24.305, "Al": 26.982, "Si": 28.085, "P": 30.974, "S": 32.06, "Cl": 35.45,

@@ -1,4 +1,4 @@
-"""Arrays of the user's as NumPy arrays, without a copy where that is possible."""
+"""The user's arrays as NumPy arrays, without a copy where possible."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def as_array(name: str, value: Any) -> np.ndarray[Any, Any]:
 def _as_array(name: str, value: Any) -> np.ndarray[Any, Any]:
     if isinstance(value, np.ma.MaskedArray):
         if np.ma.is_masked(value):  # type: ignore[no-untyped-call]
-            raise bad_argument(name, "has masked entries, and every sphere or ray needs a number", "leave them out before")
+            raise bad_argument(name, "has masked entries, and every sphere or ray needs a number", "remove them first")
         return np.asarray(value.data)
     if isinstance(value, np.ndarray):
         return value
@@ -32,7 +32,7 @@ def _as_array(name: str, value: Any) -> np.ndarray[Any, Any]:
     if only_dlpack:
         device = value.__dlpack_device__()[0] if hasattr(value, "__dlpack_device__") else _CPU
         if int(device) != _CPU:
-            raise bad_argument(name, "lies in the memory of a device", "copy it to the CPU first")
+            raise bad_argument(name, "is in the memory of a device", "copy it to the CPU first")
         try:
             return np.from_dlpack(value)
         except (RuntimeError, TypeError, ValueError, BufferError) as error:
@@ -64,7 +64,7 @@ def numbers(name: str, value: Any) -> np.ndarray[Any, Any]:
 
 
 def one_each(name: str, value: Any, count: int) -> np.ndarray[Any, Any]:
-    """A number for each of ``count`` things, or one number for all of them (which takes no memory)."""
+    """A number for each of ``count`` items, or one number for all of them (which takes no memory)."""
     array = numbers(name, value)
     if array.ndim == 0:
         return np.broadcast_to(array, (count,))
@@ -98,7 +98,7 @@ def whole_numbers(name: str, value: Any, count: int, least: int, most: int) -> n
 
 
 def texts(name: str, value: Any, count: int) -> list[str]:
-    """A text for each of ``count`` things."""
+    """A text for each of ``count`` items."""
     array = as_array(name, value)
     if array.shape != (count,):
         raise bad_argument(name, f"expected shape ({count},), found shape {array.shape}")

@@ -1,4 +1,4 @@
-"""Cameras, looks and styles: what decides a picture besides its spheres. All can be compared, copied and pickled."""
+"""Cameras, looks and styles: what determines a picture besides its spheres. All can be compared, copied and pickled."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Perspective:
 
 @dataclass(frozen=True)
 class Look:
-    """What is done to the spheres of a selection: the options of the command line behind ``--select``.
+    """Actions on the spheres of a selection: the options of the command line after ``--select``.
 
     select: an expression (docs/selections.md). show: False hides them. colour: a name, "#rrggbb" or three numbers of linear
     light. colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
@@ -109,7 +109,7 @@ class Look:
 
 @dataclass(frozen=True)
 class Style:
-    """A style of one's own: the keys of a style file (docs/styles.md) as a dictionary.
+    """A custom style: the keys of a style file (docs/styles.md) as a dictionary.
 
     >>> Style({"material": {"diffuse": 0.9}, "background": "black"}).text()
     '{"bihive_style": 1, "material": {"diffuse": 0.9}, "background": "black"}'

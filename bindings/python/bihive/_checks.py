@@ -1,4 +1,4 @@
-"""Arguments that are no arrays: texts, paths, switches and one of several names."""
+"""Checks of arguments that are not arrays: texts, paths, switches and one of several names."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Iterable, Mapping
 from ._errors import bad_argument, found
 
 _LONGEST_PATH = 4096
-_MOST = 1000000  # things in a list that is no array
+_MOST = 1000000  # items in a list that is not an array
 
 
 def whole_text(name: str, text: str) -> str:
@@ -65,7 +65,7 @@ def mapping(name: str, value: Any) -> Mapping[Any, Any]:
 
 
 def several(name: str, value: Any, what: str) -> list[Any]:
-    """The things of a list, a tuple or another iterable that is no text."""
+    """The items of a list, a tuple or another iterable that is not a text."""
     if isinstance(value, (str, bytes, Mapping)):
         raise bad_argument(name, f"expected {what}, found {found(value)}")
     try:

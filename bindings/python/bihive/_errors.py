@@ -1,4 +1,4 @@
-"""The exceptions of the package. Each says what was wrong, names the argument, and says what to do."""
+"""The exceptions of the package. Each states the fault, the argument and the remedy."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ __all__ = ["Error", "InputError", "UsageError", "FileError", "MissingError", "In
 
 
 def safe(text: str) -> str:
-    """The text as repr() writes it: what a terminal may obey, what nobody sees and what is no UTF-8 is written out."""
+    """The text as repr() writes it: control characters, invisible characters and bytes that are not UTF-8 are escaped."""
     return "".join(c if c.isprintable() or c == "\n" else c.encode("unicode_escape").decode() for c in text)
 
 
@@ -54,7 +54,7 @@ class MissingError(Error, RuntimeError):
 
 
 class InputWarning(UserWarning):
-    """What a reader or a picture wants its user to know."""
+    """Warnings of readers and pictures."""
 
 
 def failure(kind: str, message: str, file: str, line: int, column: int, hint: str, shown: str, argument: str) -> Error:
@@ -81,14 +81,14 @@ def bad_argument(argument: str, message: str, hint: str = "") -> UsageError:
     return UsageError(f"{argument}: {message}" + (f"; {hint}" if hint else ""), argument=argument, hint=hint)
 
 
-_LONGEST = 160  # of a part of a message that a file or an argument may have written
+_LONGEST = 160  # for text in a message that comes from a file or an argument
 _LONGEST_MESSAGE = 300
 _REPR = reprlib.Repr()
 _REPR.maxstring = _REPR.maxother = 60
 
 
 def printable(text: str) -> str:
-    """With escapes for what is no character of a line: controls, marks of direction, surrogates."""
+    """Escapes characters that do not belong in a line: controls, marks of direction, surrogates."""
     return text if text.isprintable() else "".join(one if one.isprintable() else ascii(one)[1:-1] for one in text)
 
 

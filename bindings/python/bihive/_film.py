@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
 __all__ = ["film"]
 
-# How long an interrupted program may take to end what it has begun.
+# Time limit for an interrupted program to finish.
 _PATIENCE_S = 15
-# How often a wait looks for signals.
+# Interval at which a wait checks for signals.
 _LOOK_S = 0.1
 _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
 # What `bihive film` alone can do.
@@ -59,7 +59,7 @@ def program() -> str:
 
 
 def _said(run: subprocess.Popen[Any]) -> tuple[Any, Any]:
-    """What a program prints until its end. A signal that comes between two steps of Python does not wake a wait without end."""
+    """What a program prints until its end. A signal between two steps of Python does not wake an endless wait."""
     import subprocess
 
     while True:
@@ -80,7 +80,7 @@ def _film_of_file(source: str, path: str, words: list[str], progress: Progress) 
         try:
             said = _said(run)[1]
         except BaseException:
-            # The program ends what it has begun, and then itself. On a terminal Ctrl-C has reached it too.
+            # The program finishes its current work, then ends. On a terminal Ctrl-C has reached it too.
             run.terminate()
             try:
                 run.wait(_PATIENCE_S)
@@ -143,9 +143,9 @@ def _rate(fps: Any) -> Fraction:
 
 
 class _Ffmpeg:
-    """ffmpeg that encodes pictures into a file in a hidden folder beside the film, which takes the film's place in the end.
+    """Runs ffmpeg to encode pictures into a file in a hidden folder beside the film, which replaces the film in the end.
 
-    The folder, and how its file takes the place, are those of `bihive film`.
+    The folder and the replacement are those of `bihive film`.
     """
 
     def __init__(self, path: str, size: tuple[int, int], rate: Fraction) -> None:
@@ -261,7 +261,7 @@ class _Ffmpeg:
         raise MissingError("ffmpeg failed" + (f", and said: {said[-1]}" if said else ""))
 
     def leave(self) -> None:
-        """Nothing half-written stays, and nothing that ffmpeg has started: it may be a script."""
+        """Leaves no partial file, and no process that ffmpeg has started: it may be a script."""
         import signal
 
         if self._run.poll() is None:
@@ -331,7 +331,7 @@ def film(
         with Bar(progress if isinstance(progress, bool) else None, "filming"):
             for spheres in _frames_of(source, atoms, frames):
                 all_words = [*words, f"--frame={count}", "--", "spheres"]
-                # The first frame is drawn once more, with the camera and the ranges that it gives to all.
+                # The first frame is drawn again, with the camera and the ranges that it determines for all.
                 like = like or draw(spheres, all_words, style_text(style), None, False)
                 picture = draw(spheres, all_words, style_text(style), like, False)
                 if encoder is None:

@@ -1,4 +1,4 @@
-"""From keyword arguments to the words of the command line, which has one description and one check for each option.
+"""Converts keyword arguments to command line arguments, which have one description and one check per option.
 
 ``view_from="left"`` becomes ``--view-from=left``. So every option of ``bihive render`` is here, under its own name.
 """
@@ -31,7 +31,7 @@ FLAGS = [
 ]
 # Two or three numbers with an x between them.
 SIZES = [name for name, value in _OPTIONS.items() if value in ("WxH", "AxBxC")]
-# One value each. A tuple stands for numbers between commas.
+# One value each. A tuple means numbers separated by commas.
 ONE_VALUE = [name for name, value in _OPTIONS.items() if value and name not in SIZES + ACTIONS]
 _DEEPEST = 8  # of lists in lists
 
@@ -96,7 +96,7 @@ def action_words(name: str, value: Any) -> list[str]:
 
 
 def words_of(options: Mapping[str, Any], allowed: Iterable[str] | None = None) -> list[str]:
-    """The words of these options. ``None`` leaves an option out.
+    """The arguments for these options. ``None`` leaves an option out.
 
     Raises UsageError for a name that is not ``allowed`` (None: any option of a picture).
     """

@@ -37,13 +37,13 @@ class Picture:
 
     @property
     def report(self) -> dict[str, Any]:
-        """What ``bihive render --json`` says: settings, numbers of rays, build_ms, render_ms."""
+        """The output of ``bihive render --json``: settings, numbers of rays, build_ms, render_ms."""
         made: dict[str, Any] = json.loads(self._core.report)
         return made
 
     @property
     def camera(self) -> dict[str, Any]:
-        """Where the picture is seen from: eye, look_at, up, fov_deg... in world units."""
+        """The camera of the picture: eye, look_at, up, fov_deg... in world units."""
         made: dict[str, Any] = self.report["settings"]["camera"]
         return made
 
@@ -88,7 +88,7 @@ class Picture:
             raise FileError(0, str(error), text) from None
 
     def detach(self) -> Picture:
-        """Lets the scene and its tree go, whose memory may be large: layer() fails from now on. Returns the picture."""
+        """Releases the scene and its tree, whose memory may be large: layer() then fails. Returns the picture."""
         self._core.detach()
         return self
 

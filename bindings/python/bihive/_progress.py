@@ -1,4 +1,4 @@
-"""A bar of progress, where somebody looks at it."""
+"""A progress bar for interactive sessions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _somebody_looks() -> bool:
 
 
 class Bar:
-    """Called with the finished share several times a second; shows a bar of tqdm once the work has taken a second."""
+    """Called with the finished share several times per second; shows a bar of tqdm once the work has taken a second."""
 
     def __init__(self, progress: Union[None, bool, Callable[[float], object]], what: str) -> None:
         if progress is not None and not isinstance(progress, bool) and not callable(progress):

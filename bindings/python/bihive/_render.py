@@ -1,4 +1,4 @@
-"""From spheres or a file to a picture."""
+"""Renders spheres or a file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Progress = Union[None, bool, Callable[[float], object]]
 
 
 def picture_words(select: Optional[str], camera: Camera, style: Any, looks: Any, options: dict[str, Any]) -> list[str]:
-    """The words of `bihive render` for these arguments, without the input."""
+    """The arguments of `bihive render` for these keywords, without the input."""
     if isinstance(camera, str):
         options = {"view_from": camera, **options}
     elif camera is not None and not isinstance(camera, (Orthographic, Perspective, Picture)):
@@ -49,7 +49,7 @@ def picture_words(select: Optional[str], camera: Camera, style: Any, looks: Any,
 
 
 def style_text(style: Any) -> str:
-    """A style that is no name and no file, as text."""
+    """A style that is neither a name nor a file, as text."""
     if isinstance(style, dict):
         style = Style(style)
     return style.text() if isinstance(style, Style) else ""

@@ -100,7 +100,7 @@ def _cell(value: Any) -> Array:
 
 
 class Spheres:
-    """Spheres with what is known of each: a set that does not change.
+    """Spheres with their attributes: an immutable set.
 
     xyz: float32 or float64, shape (n, 3): centres, in world units of any size; or (n, 4): and radii. Read where it lies,
         with any strides, and rounded once to binary32 in a scale of the set's own; other real types are copied first.
@@ -211,13 +211,13 @@ class Spheres:
 
     @property
     def columns(self) -> list[str]:
-        """The names of what is known of each sphere besides centre and radius."""
+        """The names of the attributes of spheres besides centre and radius."""
         own = [name for name in ("element", "type", "colour", "opacity") if getattr(self._core, name) is not None]
         return own + list(self._core.columns)
 
     @property
     def name(self) -> str:
-        """The file that they come from, or the name that was given."""
+        """The file that they come from, or the given name."""
         return self._core.name
 
     @property
@@ -242,7 +242,7 @@ class Spheres:
 
     @property
     def rules(self) -> list[str]:
-        """What the reader did, a sentence each."""
+        """The rules that the reader applied, one sentence each."""
         return self._core.rules
 
     @property
@@ -304,7 +304,7 @@ class Spheres:
         return made
 
     def __iter__(self) -> Iterator[Any]:
-        raise TypeError("Spheres are no sequence of spheres: use s.xyz and s.radius")
+        raise TypeError("Spheres are not a sequence of spheres: use s.xyz and s.radius")
 
     def _attribute(self, name: str) -> Array:
         if name in ("x", "y", "z"):
@@ -415,7 +415,7 @@ def check_readable(path: Union[str, os.PathLike[str]], name: str = "path") -> st
         with open(text, "rb"):
             pass
     except OSError as error:
-        # FILE:/NAME is a part of a file (HDF5).
+        # FILE:/NAME is a group in a file (HDF5).
         if not any(os.path.exists(text[: found_at.start()]) for found_at in re.finditer(":/", text)):
             raise FileError(error.errno or 0, error.strerror or str(error), text) from None
     return text
@@ -459,7 +459,7 @@ def convert(
 
 
 def select(spheres: Spheres, expression: str) -> Array:
-    """bool (n,): which spheres a selection (docs/selections.md) takes. Raises UsageError that shows the wrong place.
+    """bool (n,): which spheres a selection (docs/selections.md) takes. Raises UsageError that shows the faulty column.
 
     >>> int(select(read("demo"), "name CA and chain A").sum())
     99
@@ -470,7 +470,7 @@ def select(spheres: Spheres, expression: str) -> Array:
 
 
 def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> dict[str, Any]:
-    """Both trees in numbers, as ``bihive stats --json`` prints them: nodes, depths, overlap, memory in bytes.
+    """Statistics of both trees, as ``bihive stats --json`` prints them: nodes, depths, overlap, memory in bytes.
 
     >>> stats(read("demo"))["spheres"]
     1631

@@ -1,4 +1,4 @@
-"""Trees that answer what rays hit, and which spheres are near points."""
+"""Trees for queries about rays and points."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Near(NamedTuple):
 
     @property
     def counts(self) -> Array:
-        """How many spheres each point has: int64 (points,)."""
+        """The number of spheres of each point: int64 (points,)."""
         made: Array = np.diff(self.begin)
         return made
 
@@ -90,12 +90,12 @@ class Tree:
 
     @property
     def spheres(self) -> Spheres:
-        """The spheres of which it was made."""
+        """Its spheres."""
         return self._spheres
 
     @property
     def build_ms(self) -> float:
-        """How long its building took, in milliseconds."""
+        """The time of its construction, in milliseconds."""
         return self._core.build_ms
 
     def __len__(self) -> int:
@@ -157,7 +157,7 @@ class Tree:
         leaves: Any = None,
         inside: Any = None,
     ) -> Hits:
-        """Every sphere that each ray meets, at the place where it enters. Arguments as those of closest()."""
+        """Every sphere that each ray meets, where it enters. Arguments as those of closest()."""
         rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
         ray, t, ids = self._core.all_hits(*rays)
         begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
@@ -223,14 +223,14 @@ class Tree:
         return self.within(where, sizes)
 
     def _positions(self, ids: Array) -> Array:
-        """Positions among all spheres, of positions in the part that counts."""
+        """Positions among all spheres, of positions in the subset."""
         if self._ids is None or len(self._ids) == 0:
             return ids
         made: Array = np.where(ids >= 0, self._ids[np.maximum(ids, 0)], ids)
         return made
 
     def _in_part(self, leaves: Array) -> Array:
-        """The inverse; a sphere that does not count is none."""
+        """The inverse; a sphere outside the subset becomes none."""
         if self._ids is None:
             return leaves
         if len(self._ids) == 0:

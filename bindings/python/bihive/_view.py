@@ -1,4 +1,4 @@
-"""The page in a browser, with spheres that lie in memory."""
+"""The page in a browser, with spheres in memory."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class View:
         return self._server.poll() is None
 
     def close(self) -> None:
-        """Ends the server, and lets the memory of its spheres go. Again: nothing."""
+        """Ends the server, and releases the memory of its spheres. Idempotent."""
         if self.is_open:
             self._server.terminate()
             self._server.wait()
@@ -60,7 +60,7 @@ def _let_go(folder: str, descriptors: list[int]) -> None:
     import shutil
 
     shutil.rmtree(folder, ignore_errors=True)
-    # Several threads may come here: each descriptor is closed by one of them.
+    # For several threads: each descriptor is closed by one of them.
     while True:
         try:
             descriptor = descriptors.pop()
@@ -69,7 +69,7 @@ def _let_go(folder: str, descriptors: list[int]) -> None:
         os.close(descriptor)
 
 
-# Spheres lie in memory that has no name in any folder; the link to it gives the page a name to show.
+# Spheres are in memory without a name in any folder; the link to it gives the page a name to show.
 def _command_of(spheres: Spheres, folder: str) -> tuple[list[str], list[int]]:
     content, _ = spheres._core.written("extxyz")
     descriptor = os.memfd_create("spheres")

@@ -1,4 +1,4 @@
-// Arrays of Python, read where they lie.
+// Arrays of Python, read in place.
 #pragma once
 
 #include <pybind11/numpy.h>

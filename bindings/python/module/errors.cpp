@@ -26,7 +26,8 @@ const char* kind_of(ExitCode code) {
 void raise(const Failure& failure) {
   const Error& error = failure.error;
   try {
-    // Texts may hold bytes that are no UTF-8, of which Python makes no str; the name of a file has a way of its own.
+    // Texts may contain bytes that are not UTF-8, which Python cannot make a str of; names of files are converted
+    // separately.
     const auto file = py::reinterpret_steal<py::str>(
         PyUnicode_DecodeFSDefaultAndSize(error.file.data(), static_cast<Py_ssize_t>(error.file.size())));
     const py::object made =

@@ -10,8 +10,7 @@
 
 namespace bihive::python {
 
-/// From now on a Failure that leaves a function of the module becomes the exception that bihive/_errors.py makes
-/// of it.
+/// Makes a Failure that leaves a function of the module the exception that bihive/_errors.py makes of it.
 void translate_failures();
 
 /// Warnings as the command line prints them, which Python can hold: its strings are UTF-8.

@@ -35,12 +35,12 @@ class FilmFile {
   FilmFile(const FilmFile&) = delete;
   FilmFile& operator=(const FilmFile&) = delete;
 
-  // Of the folder; a program that inherits it finds the folder whatever becomes of its name.
+  // The folder's descriptor; a program that inherits it finds the folder even if it is renamed.
   int descriptor() const { return hidden_ ? hidden_->folder.descriptor() : -1; }
 
   bool has(const std::string& name) const { return hidden_ && hidden_->folder.has(name); }
 
-  // The file `name` in the folder takes the film's place.
+  // The file `name` in the folder replaces the film.
   void place(const std::string& name) { value_of(place_file(descriptor(), name, output_)); }
 
   void leave() {

@@ -1,4 +1,4 @@
-// The module _bihive: the library for the Python package in ../bihive, which gives it its names and checks arguments.
+// The module _bihive: the library for the Python package in ../bihive, which names things and checks arguments.
 
 #include <pybind11/pybind11.h>
 

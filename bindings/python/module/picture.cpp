@@ -39,16 +39,16 @@ struct Drawing {
   std::optional<Tracer> tracer;
 };
 
-// What layers are made of.
+// The data of layers.
 struct Light {
   std::shared_ptr<const Drawing> drawing;
   Film film;
 };
 
-// All but `light` never changes after it is made, so that threads may read it without Python's lock. `light` is read
-// and written under the lock alone: who goes on without the lock keeps a pointer of his own.
+// All except `light` is immutable, so that threads may read it without Python's lock. `light` is read and written under
+// the lock alone: code without the lock keeps its own pointer.
 struct Picture {
-  std::shared_ptr<const Light> light;  // null: it was let go, or the picture was unpickled
+  std::shared_ptr<const Light> light;  // null: it was released, or the picture was unpickled
   PngPixels pixels;
   PngText text;
   std::vector<std::pair<std::string, std::string>> exr_text;  // the same in UTF-8
@@ -69,7 +69,7 @@ Input input_of(const Spheres& spheres, const PictureRequest& options, const Styl
   return scene_of_spheres(std::move(file), spheres.name, &style);
 }
 
-// A style that is not in a file comes as its text.
+// A style that is not in a file is passed as its text.
 Style style_of(const PictureRequest& options, const std::string& style_text) {
   if (style_text.empty()) return choose_style(options.style);
   return value_of(parse_style(style_text, "style"));
@@ -83,7 +83,7 @@ nlohmann::ordered_json rays_json(const RenderCounts& rays) {
           {"ambient", rays.ambient}};
 }
 
-// The film by the engine, and what is reported of it.
+// The film by the engine, and its report.
 Rendered draw(const Drawing& drawing, RenderEngine engine, Work& work) {
   const Tracer& tracer = *drawing.tracer;
   const auto progress = [&work](double done) { work.done.store(done, std::memory_order_relaxed); };
@@ -130,7 +130,7 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
       png_pixels_from_film(rendered.film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
   draw_labels(picture->pixels, scene, settings, options.dots_per_inch);
 
-  // Keep what is known of it.
+  // Keep its facts.
   const nlohmann::ordered_json described = settings_json(options, settings, scene, {});
   for (const auto& [name, value] : text_of(scene, described)) {
     picture->text.emplace_back(name, latin1(value));

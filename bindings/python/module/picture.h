@@ -1,4 +1,4 @@
-// Pictures: from spheres or an input, and the words of `bihive render`, to pixels.
+// Pictures: pixels from spheres or an input, and the arguments of `bihive render`.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -20,7 +20,7 @@ namespace py = pybind11;
 namespace bihive::python {
 namespace {
 
-/// Points between two looks for Ctrl-C: some tenths of a second.
+/// Points between two checks for Ctrl-C: some tenths of a second.
 constexpr std::int64_t kPointsBetweenLooks = 65536;
 
 using Points = py::array_t<double, py::array::c_style>;  // (n, 3)
@@ -60,7 +60,7 @@ py::tuple nearest(const RayTree& tree, const Points& points, std::int64_t k, dou
   return py::make_tuple(distance, id);
 }
 
-// For each point the place where its spheres begin, and the end of all; positions; distances.
+// For each point the index of its first sphere, and the end of all; positions; distances.
 py::tuple within(const RayTree& tree, const Points& points, const Points& limits, bool to_centre) {
   const WideTree& wide = wide_tree_for(tree, "within");
   SphereLists all;

@@ -180,7 +180,7 @@ py::dict columns(const Spheres& spheres) {
   py::dict made;
   for (const NamedNumbers& column : attributes.numbers) made[py::str(column.name)] = array_or_none(column.values);
   for (const NamedTexts& column : attributes.texts) {
-    // A label stands beside its number under the same name: `type` of LAMMPS.
+    // A label and its number have the same name: `type` of LAMMPS.
     const std::string name = made.contains(py::str(column.name)) ? column.name + "_text" : column.name;
     py::list texts;
     for (std::size_t i = 0; i < column.text_of_sphere.size(); ++i) texts.append(column.of(i));
@@ -228,7 +228,7 @@ std::string statistics(const Spheres& spheres, const std::vector<std::string>& w
   return text;
 }
 
-// Colours as --colour-by gives them, for numbers or texts that belong to no set.
+// Colours as from --colour-by, for numbers or texts without a set.
 py::array_t<float> colours_of(const py::object& values, const std::string& how, const std::string& nan_colour) {
   const bool are_texts = py::isinstance<py::list>(values);
   SphereAttributes attributes;

@@ -12,14 +12,14 @@
 
 namespace bihive::python {
 
-/// Never changed after it is made, so that pictures and trees may share it.
+/// Immutable, so that pictures and trees may share it.
 struct Spheres {
   SphereFile file;
   std::string name;  ///< for messages
 };
 using SharedSpheres = std::shared_ptr<const Spheres>;
 
-/// The request of words such as "--light-points=4"; job/picture_options.h.
+/// The request of arguments such as "--light-points=4"; job/picture_options.h.
 PictureRequest request_of(const std::vector<std::string>& words);
 
 /// Adds them to the module.

@@ -27,7 +27,7 @@ namespace bihive::python {
 namespace {
 
 // Rays in a piece of work. Neighbours in blocks take little time each, so that each thread may have several pieces.
-// Scattered rays are sorted within a piece: the more the better, but Ctrl-C is seen between two pieces alone.
+// Scattered rays are sorted within a piece: the more the better, but Ctrl-C is checked between two pieces alone.
 constexpr std::int64_t kFewestRays = 16384;
 constexpr std::int64_t kMostRaysInBlocks = 131072;
 constexpr std::int64_t kMostScatteredRays = 524288;
@@ -63,7 +63,7 @@ void copy_part(const NumbersView& view, std::int64_t first, std::int64_t count, 
     copy_as<double>(view, first, count, to);
 }
 
-// The numbers where they lie, if they lie as a vector of T would; else null.
+// The numbers in place, if they are laid out as a vector of T; else null.
 template <class T>
 const T* as_vector(const NumbersView& view, std::int64_t first) {
   constexpr auto kPrecision =
@@ -73,7 +73,7 @@ const T* as_vector(const NumbersView& view, std::int64_t first) {
   return static_cast<const T*>(view.first) + first;
 }
 
-// The rays of a piece as the engine reads them. Its memory is used again for the next piece.
+// The rays of a piece as the engine reads them. Its memory is reused for the next piece.
 class RayPiece {
  public:
   RaySpan take(const RayArrays& rays, std::int64_t first, std::int64_t count) {
@@ -217,8 +217,8 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
   return py::make_tuple(ray, t, id);
 }
 
-// `part`: ids of the only spheres that count; their positions in it are the answers' ids. `words`: options of
-// `bihive trace` about tree, engine and threads.
+// `part`: ids of a subset of the spheres; their positions in it are the answers' ids. `words`: options of `bihive
+// trace` about tree, engine and threads.
 std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
                                     const std::vector<std::string>& words) {
   const PictureRequest options = request_of(words);

@@ -1,4 +1,4 @@
-// Trees that answer what rays of arrays hit, and which spheres are near points.
+// Trees for queries about arrays of rays and points.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,7 +11,7 @@
 
 namespace bihive::python {
 
-/// A tree of the engine that its options named, and the spheres of which it was made.
+/// A tree of the chosen engine, and its spheres.
 struct RayTree {
   SharedSpheres spheres;
   std::optional<Tracer> tracer;
@@ -26,8 +26,8 @@ void bind_trees(pybind11::module_& module);
 /// Adds the queries about points to Tree (points.cpp).
 void bind_points(TreeClass& tree);
 
-/// The wide tree, which alone answers every query. Fails by the name of the query where there is none, or where copies
-/// along a cell would be left out.
+/// The wide tree, which alone answers every query. Fails by the name of the query if there is none, or if copies along
+/// a cell would be left out.
 const WideTree& wide_tree_for(const RayTree& tree, const char* query);
 
 }  // namespace bihive::python

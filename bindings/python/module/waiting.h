@@ -13,22 +13,22 @@
 
 namespace bihive::python {
 
-/// Between the work and the thread that waits for it.
+/// Shared by the work and the thread that waits for it.
 struct Work {
-  CancelToken cancel;           ///< set: stop soon; the result is not wanted any more
+  CancelToken cancel;           ///< set: stop soon; the result is no longer needed
   std::atomic<double> done{0};  ///< the finished share, 0 to 1
 };
 
-/// Does the work on a thread of its own. The calling thread waits, and several times a second it looks for signals and
-/// calls `progress` (None, or a function of the finished share). An exception of either cancels the work, and is thrown
-/// after its end.
+/// Does the work on a thread of its own. The calling thread waits, and several times per second it checks for signals
+/// and calls `progress` (None, or a function of the finished share). An exception of either cancels the work, and is
+/// thrown after its end.
 void wait_for(const std::function<void(Work&)>& work, const pybind11::object& progress);
 
-/// For work in short pieces on several threads, the calling one among them: it looks for signals between two pieces.
+/// For work in short pieces on several threads, the calling one among them: it checks for signals between two pieces.
 /// The caller must have released Python's lock.
 class SignalWatch {
  public:
-  /// Whether the work shall end. Calls from other threads than that of the constructor only look.
+  /// Whether the work shall end. Only the constructor's thread handles signals; other threads just read the flag.
   bool cancelled();
   /// Throws what the signal's handler threw. Python's lock must be held.
   void rethrow() const;

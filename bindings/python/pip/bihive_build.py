@@ -1,7 +1,7 @@
-"""What pip calls to build the package: CMake builds it, and this file packs the result into a wheel.
+"""The build backend for pip: CMake builds the package, and this file packs the result into a wheel.
 
-It needs nothing besides Python and what bihive's build needs. Options of CMake come in CMAKE_ARGS of the environment; the build is
-in build-pip, so that the next call goes on from it.
+It needs nothing besides Python and what bihive's build needs. CMAKE_ARGS in the environment holds options of CMake; the build
+is in build-pip, so that the next call continues from it.
 """
 
 import base64
@@ -47,7 +47,7 @@ def run(*words):
     except FileNotFoundError:
         raise SystemExit(f"bihive is built by {words[0]}, which is not installed: run scripts/setup python") from None
     except subprocess.CalledProcessError:
-        raise SystemExit("bihive could not be built: the reason stands above") from None
+        raise SystemExit("bihive could not be built: the reason is printed above") from None
 
 
 def build(folder):

@@ -12,7 +12,7 @@ namespace bihive {
 
 namespace {
 
-// Large blocks start and end on borders of huge pages (2 MiB), so that the system can use them.
+// Large blocks start and end on huge-page boundaries (2 MiB), so that the system can use them.
 constexpr std::size_t kLine = 64;
 constexpr std::size_t kHugePage = std::size_t{1} << 21;
 

@@ -1,4 +1,4 @@
-// A block of memory that only grows. It lies on cache-line borders, and on huge pages if the system has them.
+// A block of memory that only grows. It is aligned to cache lines, and to huge pages if the system has them.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace bihive {
 
-/// A block of at least `bytes`, for std::free(). Large ones start and end on borders of huge pages. Throws
+/// A block of at least `bytes`, for std::free(). Large ones start and end on huge-page boundaries. Throws
 /// std::bad_alloc.
 void* allocate_aligned(std::size_t bytes);
 
-/// Asks for huge pages under those parts of a large block that fill them; before it is written for the first time, as a
-/// page costs a moment then. Does nothing for small blocks, and where the system has none.
+/// Requests huge pages for those parts of a large block that fill them. Call it before the memory is first written,
+/// because a huge page takes a moment then. Does nothing for small blocks, and on systems without huge pages.
 void prefer_huge_pages(void* data, std::size_t bytes);
 
 class AlignedBuffer {

@@ -36,8 +36,7 @@ std::string random_name(std::string_view suffix) {
   return std::string(kPrefix) + digits + std::string(suffix);
 }
 
-// Folders of very many files that were read a short while ago: a film of a hundred thousand pictures must not read its
-// folder for each of them.
+// Large folders that were read recently: a film of 100,000 pictures must not read its folder once per picture.
 class LargeFolders {
  public:
   static constexpr std::int64_t kMany = 1000;
@@ -79,7 +78,8 @@ class LargeFolders {
   Reads read_;
 };
 
-// The file mode creation mask, without the moment in which umask() takes it from all threads. Unknown before Linux 4.7.
+// The file mode creation mask, read without umask(), which would clear it for all threads for a moment. Unknown before
+// Linux 4.7.
 std::optional<mode_t> creation_mask() {
   std::FILE* const status = std::fopen("/proc/self/status", "re");
   if (status == nullptr) return std::nullopt;
@@ -130,7 +130,7 @@ void remove_left_parts(int folder, uid_t also_of) {
     if (!is_part_name(entry->d_name) || ::fstatat(readable, entry->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 ||
         !is_own(info))
       continue;
-    // Locks of network file systems need a file that can be written, and a part may have come to its last permissions.
+    // Locks on network file systems need a writable file, and a part may already have its final permissions.
     constexpr int kHow = O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
     int file = ::openat(readable, entry->d_name, O_RDWR | kHow);
     if (file < 0) file = ::openat(readable, entry->d_name, O_RDONLY | kHow);
@@ -179,8 +179,8 @@ int open_under_random_name(int folder, mode_t mode, std::string& name) {
       if (errno != EEXIST && errno != EINTR) break;
       continue;
     }
-    // Not every file system has locks; none of them is asked twice. Another program that looked between the two calls
-    // took the file for one that was left.
+    // Not every file system has locks; each is asked only once. A program that checked between the two calls took the
+    // file for an abandoned one.
     const bool taken = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     struct stat info {};
     if (!taken && (::fstat(file, &info) != 0 || info.st_nlink > 0)) return file;

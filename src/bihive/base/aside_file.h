@@ -9,7 +9,7 @@
 
 namespace bihive {
 
-/// ".bihive-0123456789abcdef.part": a name that nobody can guess.
+/// ".bihive-0123456789abcdef.part": an unguessable name.
 std::string random_part_name();
 /// ".bihive-0123456789abcdef.kept": holds the only copy of a file for a moment, so that no program removes it.
 std::string random_kept_name();

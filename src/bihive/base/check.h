@@ -1,4 +1,4 @@
-// Programmer's errors: a failed check prints both values and the place, then aborts.
+// Programmer's errors: a failed check prints both values and the source line, then aborts.
 //
 // Bad input is never a CHECK: it is a returned Error (base/result.h). DCHECK vanishes when NDEBUG is defined.
 #pragma once
@@ -19,7 +19,7 @@ template <class A, class B>
 
 }  // namespace bihive::detail
 
-// A file's name without its folders, which are those of whoever built the program.
+// A file's name without its folders, which are specific to the machine that built the program.
 #ifdef __FILE_NAME__
 #define BIHIVE_FILE_NAME_ __FILE_NAME__
 #else

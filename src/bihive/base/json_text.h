@@ -1,5 +1,5 @@
-// JSON of strangers: its depth is limited before anything is built from it. nlohmann's documents recurse where they are
-// copied, compared, written or freed, so brackets without end would end the program.
+// Untrusted JSON: its depth is limited before a document is built. nlohmann's documents recurse when they are copied,
+// compared, written or freed, so endless brackets would overflow the stack.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace bihive {
 /// No document of this project comes near it.
 constexpr int kMostJsonDepth = 64;
 
-/// An error, with line and column, where more than kMostJsonDepth arrays and objects are open. Text that is no JSON
-/// passes: a parser stops where it stops being JSON, and up to there this counts as the parser does. `name` is the
+/// An error, with line and column, where more than kMostJsonDepth arrays and objects are open. Text that is not JSON
+/// passes: a parser stops where it stops being JSON, and up to that point this counts as the parser does. `name` is the
 /// file's name for the message.
 Status check_json_depth(std::string_view text, const std::string& name);
 

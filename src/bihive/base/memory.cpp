@@ -68,7 +68,7 @@ void lower_by_process(MemoryLimit& limit) {
 
 #endif
 
-// The machine's memory and BIHIVE_MEMORY, which do not say what of them is in use.
+// The machine's memory and BIHIVE_MEMORY, which do not tell how much is in use.
 MemoryLimit limit_of_all() {
 #ifdef __EMSCRIPTEN__
   MemoryLimit limit{static_cast<double>(emscripten_get_heap_max()), "a page has"};
@@ -76,15 +76,15 @@ MemoryLimit limit_of_all() {
   MemoryLimit limit{static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)),
                     "this machine has"};
 #endif
-  const char* const wish = std::getenv("BIHIVE_MEMORY");  // NOLINT(concurrency-mt-unsafe)
-  if (wish == nullptr) return limit;
+  const char* const request = std::getenv("BIHIVE_MEMORY");  // NOLINT(concurrency-mt-unsafe)
+  if (request == nullptr) return limit;
   char* end = nullptr;
-  const double bytes = std::strtod(wish, &end);
-  if (end != wish && *end == '\0' && bytes > 0) lower(limit, bytes, "BIHIVE_MEMORY allows");
+  const double bytes = std::strtod(request, &end);
+  if (end != request && *end == '\0' && bytes > 0) lower(limit, bytes, "BIHIVE_MEMORY allows");
   return limit;
 }
 
-// The limits of control groups and of the process, of which something is in use.
+// The limits of control groups and of the process, less what is in use.
 MemoryLimit limit_of_more() {
   MemoryLimit limit{HUGE_VAL, ""};
 #ifndef __EMSCRIPTEN__

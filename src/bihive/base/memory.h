@@ -1,4 +1,4 @@
-// The size of the memory that this program may use, and the test whether something fits into it.
+// The memory that this program may use, and a check whether an allocation fits.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 namespace bihive {
 
 /// The smallest of four: this machine's memory (in a browser, the largest heap of the page); BIHIVE_MEMORY in the
-/// environment, a number of bytes; what the control group (a container), version 1 or 2, leaves beside all that is in
-/// use in it; what the limits of the process (RLIMIT_AS, RLIMIT_DATA) leave beside all that it has mapped.
+/// environment, a number of bytes; what the control group (a container), version 1 or 2, leaves after all that is in
+/// use in it; what the limits of the process (RLIMIT_AS, RLIMIT_DATA) leave after all that it has mapped.
 struct MemoryLimit {
   double bytes;
   std::string whose;  ///< "this machine has", "BIHIVE_MEMORY allows", ...: the number follows

@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-// The number at the beginning of a file, if it is above 0; else 0. The word "max" is none.
+// The number at the beginning of a file, if it is above 0; else 0. "max" is not a number.
 double number_in(const std::string& path) {
   const std::string text = beginning_of_file(path);
   char* end = nullptr;
@@ -92,7 +92,7 @@ MemoryLimit memory_left_by_groups(const std::vector<LimitedGroup>& groups) {
 }
 
 MemoryLimit memory_left_by_own_groups() {
-  // Groups seldom change; what they leave does. Limits above the machine's memory are none.
+  // Groups seldom change; what they leave does. Limits above the machine's memory do not count.
   static const std::vector<LimitedGroup> groups = [] {
     std::vector<LimitedGroup> all = limited_groups("/proc/self/cgroup", "/sys/fs/cgroup");
     const double machine = machine_bytes();

@@ -14,7 +14,7 @@ struct LimitedGroup {
 };
 
 /// The process's groups and those above them, if they have a limit. `groups_file` is /proc/self/cgroup and `root`
-/// /sys/fs/cgroup, or others in their place for a test.
+/// /sys/fs/cgroup, or substitutes in a test.
 std::vector<LimitedGroup> limited_groups(const std::string& groups_file, const std::string& root);
 
 /// What the groups leave: the smallest limit less what is in use, by other processes of the group too. Pages of files

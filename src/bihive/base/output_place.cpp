@@ -37,7 +37,8 @@ std::optional<int> small_number(std::string_view digits) {
   return number;
 }
 
-// The descriptor that a path names: a file that this program has open. Opening it anew would lose its place and cut it.
+// The descriptor that a path names: a file that this program has open. Opening it again would lose its offset and
+// truncate it.
 std::optional<int> descriptor_of(const std::string& path) {
   if (path == "/dev/stdin") return STDIN_FILENO;
   if (path == "/dev/stdout") return STDOUT_FILENO;
@@ -52,7 +53,7 @@ std::optional<int> descriptor_of(const std::string& path) {
   return of_this_program ? small_number(name_of(path)) : std::nullopt;
 }
 
-// Marks of a file beyond its permissions; none where the system does not tell.
+// Attributes of a file beyond its permissions; none if the system does not report them.
 struct Marks {
   bool mount_point = false, append_only = false, immutable = false;
 };
@@ -86,7 +87,7 @@ bool is_foreign_link(const struct stat& link, const struct stat& folder) {
   return (folder.st_mode & S_IWOTH) != 0 && link.st_uid != geteuid() && link.st_uid != folder.st_uid;
 }
 
-// The folder must be there. check_replacement() looks whether it may be written to.
+// The folder must be there. check_replacement() checks whether it is writable.
 Status check_folder(const std::string& folder, const std::string& given, struct stat& info) {
   if (::stat(folder.c_str(), &info) != 0)
     return system_error("the folder " + folder + " cannot be used", given, errno, "make the folder first");
@@ -94,7 +95,7 @@ Status check_folder(const std::string& folder, const std::string& given, struct 
   return Done{};
 }
 
-// A regular file, or none, at place.path: can another file take this place?
+// A regular file, or none, at place.path: can another file replace it?
 Status check_replacement(const std::string& given, const struct stat& folder, OutputPlace& place) {
   if (::access(place.folder.c_str(), W_OK | X_OK) != 0)
     return system_error("the folder " + place.folder + " cannot be written to", given, errno);
@@ -167,7 +168,7 @@ Result<OutputPlace> find_output(const std::string& given) {
     place.path = text.rfind('/', 0) == 0 || place.folder == "." ? text : place.folder + "/" + text;
   }
 
-  // Look at what is there.
+  // Examine what is there.
   if (exists) {
     if (S_ISDIR(info.st_mode)) return Error{"is a folder", given, 0, 0, "name a file in it"};
     if (::access(place.path.c_str(), W_OK) != 0) return system_error("cannot be written", given, errno);

@@ -1,4 +1,4 @@
-// Where the bytes of an output go: what the user's path comes to, with its links followed and its obstacles found.
+// The destination of an output: the user's path with its links followed, and the obstacles to writing there.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct OutputPlace {
     descriptor,  ///< a file that this program has open already: /dev/stdout, /dev/fd/3
   };
   Kind kind = Kind::fresh;
-  std::string path;          ///< behind all links
+  std::string path;          ///< after all links
   std::string folder, name;  ///< of a regular file
   int descriptor = -1;
   unsigned mode = 0, user = 0, group = 0;  ///< of the file that is there; mode: permissions only
@@ -25,13 +25,13 @@ struct OutputPlace {
   bool regular() const { return kind == Kind::fresh || kind == Kind::replaced || kind == Kind::in_place; }
 };
 
-/// An Error if the path can surely not be written to: a missing folder, a folder in its place, no permission, a file
-/// that is immutable, belongs to somebody else, or stands in a folder where files can only be added. A link in a folder
-/// to which everybody may write (/tmp) is followed if it belongs to this user or to the folder's owner, as Linux does
-/// by fs.protected_symlinks in those of them that are sticky.
+/// An Error if the path can surely not be written to: a missing folder, a path that is itself a folder, no permission,
+/// a file that is immutable, belongs to somebody else, or is in a folder where files can only be added. A link in a
+/// folder to which everybody may write (/tmp) is followed if it belongs to this user or to the folder's owner, as Linux
+/// does by fs.protected_symlinks in those of them that are sticky.
 Result<OutputPlace> find_output(const std::string& path);
 
-/// Whether both come to one file: by the file that is there, else by folder and name.
+/// Whether both resolve to one file: by the file that is there, else by folder and name.
 bool same_place(const OutputPlace& a, const OutputPlace& b);
 
 /// An Error about a file, with the system's reason.

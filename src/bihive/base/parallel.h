@@ -1,4 +1,4 @@
-// The one place where threads are made: oneTBB natively, a small pool of our own under WebAssembly and ThreadSanitizer.
+// The only code that creates threads: oneTBB natively, a small pool of our own under WebAssembly and ThreadSanitizer.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace bihive {
 int hardware_threads();
 
 /// Calls body(i) once for each 0 <= i < count, on at most `threads` threads (0 = hardware_threads()), in any order, and
-/// returns after all calls. Where the system cannot make so many threads, there are fewer. The output of the body must
+/// returns after all calls. If the system cannot create that many threads, fewer are used. The output of the body must
 /// depend on i alone, so that the number of threads cannot change it. The body must not throw.
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body);
 
@@ -25,7 +25,7 @@ class TaskList {
 };
 
 /// Runs `first` and all tasks that are added, on at most `threads` threads (0 = hardware_threads()), in any order, and
-/// returns when all are done. With one thread a task runs at the place where it is added. The rules of parallel_for
+/// returns when all are done. With one thread a task runs at the point where it is added. The rules of parallel_for
 /// hold.
 void parallel_tasks(int threads, const std::function<void(TaskList&)>& first);
 

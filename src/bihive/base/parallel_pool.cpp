@@ -20,7 +20,7 @@ constexpr bool kHasThreads = true;
 
 namespace {
 
-// Runs each task at the place where it is added.
+// Runs each task at the point where it is added.
 class Inline final : public TaskList {
  public:
   void add(std::function<void()> task) override { task(); }
@@ -69,7 +69,7 @@ void on_threads(std::int64_t threads, const Work& work) {
   try {
     for (std::int64_t k = 1; k < threads; ++k) helpers.emplace_back(work);
   } catch (const std::exception&) {
-    // The system has no more threads or no more memory: those that were made do the work.
+    // The system is out of threads or memory: the threads created so far do the work.
   }
   work();
   for (std::thread& helper : helpers) helper.join();

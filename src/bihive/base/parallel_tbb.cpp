@@ -20,7 +20,7 @@
 namespace bihive {
 namespace {
 
-// Runs each task at the place where it is added.
+// Runs each task at the point where it is added.
 class Inline final : public TaskList {
  public:
   void add(std::function<void()> task) override { task(); }
@@ -35,9 +35,9 @@ class Group final : public TaskList {
   oneapi::tbb::task_group group_;
 };
 
-// So many threads can be made beside this one, up to `wanted`. They are made and ended again: oneTBB itself throws, on
-// a thread where nobody catches it, if the system has no more. A thread of the C++ library takes twice the stack of one
-// of oneTBB's, so memory is left for the work.
+// Counts how many threads can be created beside this one, up to `wanted`, by creating and joining them: if the system
+// has no more, oneTBB itself throws on a thread where nobody catches it. A thread of the C++ library takes twice the
+// stack of one of oneTBB's, so memory is left for the work.
 int threads_beside(int wanted) {
   std::mutex gate;
   std::vector<std::thread> threads;
@@ -47,7 +47,7 @@ int threads_beside(int wanted) {
     while (static_cast<int>(threads.size()) < wanted)
       threads.emplace_back([&gate] { const std::lock_guard<std::mutex> wait(gate); });
   } catch (const std::exception&) {
-    // No more threads or no more memory: those that were made count.
+    // Out of threads or memory: those created so far count.
   }
   const auto made = static_cast<int>(threads.size());
   closed.unlock();
@@ -55,7 +55,7 @@ int threads_beside(int wanted) {
   return made;
 }
 
-// As many threads as were asked for, or as the system has. It is asked once for each larger number.
+// The number of threads requested, or that the system can create. It is probed once for each larger number.
 int threads_to_use(int wanted) {
   static std::mutex mutex;
   static int asked = 1, made = 1;
@@ -69,7 +69,7 @@ int threads_to_use(int wanted) {
 
 // Idle arenas, which later calls take again. oneTBB frees an arena only after a worker has looked into it, and on a
 // busy machine workers come late: an arena for each call would grow memory by 7 kB per call. A call takes an arena for
-// itself, so nested and concurrent calls have as many threads as ever.
+// itself, so nested and concurrent calls keep their number of threads.
 class Arenas {
  public:
   using Arena = std::unique_ptr<oneapi::tbb::task_arena>;
@@ -105,7 +105,7 @@ class Arenas {
 
   Arenas() {
     idle_.reserve(kMostIdle);
-    // A child must not find the list locked by a thread that it does not have.
+    // A forked child must not find the list locked by a thread that it does not have.
     pthread_atfork([] { all().mutex_.lock(); }, [] { all().mutex_.unlock(); }, [] { all().mutex_.unlock(); });
   }
 

@@ -9,7 +9,7 @@
 namespace bihive {
 namespace {
 
-// A plus sign may stand before a number, but not before another sign.
+// A number may have a leading plus sign, but not another sign after it.
 std::string_view without_plus(std::string_view text) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   return plus ? text.substr(1) : text;

@@ -26,13 +26,13 @@ class OpenFile {
   int file_;
 };
 
-// Some file systems (vfat, CIFS) have neither owners nor permissions. The file is as good without.
+// Some file systems (vfat, CIFS) have neither owners nor permissions. The file is just as good without them.
 void give_owner(int file, const OutputPlace& owner) {
   mode_t mode = owner.mode;
   struct stat info {};
   if (::fstat(file, &info) == 0 && (info.st_uid != owner.user || info.st_gid != owner.group) &&
       ::fchown(file, owner.user, owner.group) != 0) {
-    // Another group than before may not do more than everybody.
+    // A group other than before gets no more rights than everybody.
     mode &= ~static_cast<mode_t>(S_IRWXG) | (mode & S_IRWXO) << 3;
   }
   (void)::fchmod(file, mode);
@@ -90,7 +90,7 @@ Status place_file(int folder, const std::string& name, const std::string& output
     if (errno != EINTR) return system_error("writing failed", output, errno);
   }
 
-  // Take the place.
+  // Replace the output.
   if (place->kind == OutputPlace::Kind::in_place) {
     if (const int code = copy_over(file.get(), place->path); code != 0)
       return system_error("writing failed", output, code,

@@ -1,4 +1,4 @@
-// The half of write_file.h that reads.
+// The reading half of write_file.h.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 constexpr std::size_t kLeastRoom = std::size_t{1} << 20;
 
-// Closes the file at the end of its life.
+// Closes the file when destroyed.
 class OwnDescriptor {
  public:
   explicit OwnDescriptor(int file) : file_(file) {}
@@ -62,8 +62,8 @@ Result<std::string> read_open_file(int file, const std::string& name, bool* grew
     }
   }
 
-  // Read piece by piece, up to that size. Where none is stated, room is made before it is needed, by a quarter at a
-  // time: while the bytes move into it, old and new room both take memory.
+  // Read piece by piece, up to that size. Where none is stated, the buffer grows by a quarter at a time before it is
+  // full: while the bytes move, the old and the new buffer both take memory.
   std::string bytes;
   if (has_size) bytes.reserve(static_cast<std::size_t>(most));
   std::string piece(kPiece, '\0');

@@ -78,14 +78,14 @@ constexpr CodeRange kHostile[] = {
     {0xE0000, 0xE007F},  // tags
 };
 
-// Whether a terminal may take it for more than a letter, or show nothing in its place.
+// Whether a terminal may interpret it as more than a letter, or show nothing for it.
 bool is_hostile(std::uint32_t code) {
   for (const CodeRange& range : kHostile)
     if (code <= range.last) return code >= range.first;
   return false;
 }
 
-// `write_out` appends what stands for a character, or for a stray byte (length 0).
+// `write_out` appends the replacement of a character, or of a stray byte (length 0).
 template <class Keep, class WriteOut>
 std::string cleaned(std::string_view text, Keep keep, WriteOut write_out) {
   std::string clean;

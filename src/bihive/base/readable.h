@@ -1,4 +1,4 @@
-// Numbers as people read them.
+// Readable numbers.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ std::string readable_bytes(double bytes);
 /// 0.1 as "0.1", 1e20 as "1e+20"; at most six digits, and a decimal point whatever the locale.
 std::string readable_number(double value);
 
-/// The text as one line that is safe for a terminal. Written out, as "\n", "\x1b" or "\u009b", are: control characters
-/// (C0, C1, DEL), line and paragraph separators, marks that turn the direction of writing, characters that nobody sees
-/// (of zero width, tags, soft hyphens), and bytes that are no UTF-8. The two joiners stay, for scripts need them.
+/// The text as one line that is safe for a terminal. Escaped, as "\n", "\x1b" or "\u009b", are: control characters (C0,
+/// C1, DEL), line and paragraph separators, marks that change the writing direction, invisible characters (of zero
+/// width, tags, soft hyphens), and bytes that are not UTF-8. The two joiners stay, because scripts need them.
 std::string escaped(std::string_view text);
 /// The same for a text of several lines: newlines and tabs stay.
 std::string escaped_lines(std::string_view text);

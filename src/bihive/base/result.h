@@ -1,6 +1,6 @@
 // A value, or the reason why there is none.
 //
-// The library never prints, exits or throws on bad input: it returns a Result. An Error says the fault, its place
+// The library never prints, exits or throws on bad input: it returns a Result. An Error states the fault, its location
 // (file, and line and column if they are known) and the remedy.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace bihive {
 
-/// A fault, its place and its remedy. `line` and `column` count from 1; 0 means unknown.
+/// A fault, its location and its remedy. `line` and `column` count from 1; 0 means unknown.
 struct Error {
   std::string message;  ///< the fault and the expected value, one line, no final full stop
   std::string file;     ///< the file as the user named it; may be empty
@@ -26,7 +26,7 @@ struct Error {
   std::string to_string() const;
 };
 
-/// Either a T or an Error. A call for the absent one is a programmer's error and ends the program.
+/// Either a T or an Error. Asking for the absent one is a programmer's error and ends the program.
 template <class T>
 class [[nodiscard]] Result {
  public:

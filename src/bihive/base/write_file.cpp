@@ -51,8 +51,8 @@ int flush(int file) {
   return 0;
 }
 
-// Some file systems (FUSE, NFS) say only when a descriptor is closed that bytes did not arrive. The file itself stays
-// open, and with it the lock.
+// Some file systems (FUSE, NFS) report lost bytes only when a descriptor is closed. The file itself stays open, and
+// with it the lock.
 int close_copy(int file) {
   const int copy = ::fcntl(file, F_DUPFD_CLOEXEC, 3);
   return copy < 0 ? 0 : close_file(copy);
@@ -78,8 +78,8 @@ Status GrowingFile::open_aside(const std::string& folder) {
   folder_aside_ = folder;
   const bool replaces = place_->kind == OutputPlace::Kind::replaced;
   remove_left_parts(folder_, replaces ? place_->user : geteuid());
-  // The system gives a new file its permissions here: umask() would take the mask away from other threads for a moment.
-  // A file that takes the place of another gets that one's permissions when it is whole.
+  // The system gives a new file its permissions here: umask() would clear the mask for other threads for a moment. A
+  // file that replaces another gets that one's permissions when it is complete.
   const mode_t mode = place_->kind == OutputPlace::Kind::fresh ? kForAll : kOwnerOnly;
   file_ = open_nameless(folder_, mode);
   if (file_ < 0) file_ = open_under_random_name(folder_, mode, aside_);
@@ -160,8 +160,8 @@ Status GrowingFile::write_at(std::uint64_t place, std::string_view bytes) {
   return Done{};
 }
 
-// All texts that the later steps need, because nothing is reserved from then on: a program may end where it finds no
-// memory, and would leave a part.
+// All strings that the later steps need, because nothing is allocated from then on: a program that runs out of memory
+// may end there, and would leave a partial file.
 void GrowingFile::choose_names() {
   spare_name_ = random_part_name();
   kept_name_ = random_kept_name();
@@ -182,19 +182,19 @@ int GrowingFile::name_aside() {
   return aside_.empty() ? EEXIST : 0;
 }
 
-// The file gets the owner and permissions of the one before, and reaches the disk. It stays open, for its lock says
-// that a program is alive. 0 or an errno.
+// The file gets the owner and permissions of the one before, and reaches the disk. It stays open, because its lock
+// shows that the program is alive. 0 or an errno.
 int GrowingFile::settle() {
   if (!can_go_back()) return close_file(std::exchange(file_, -1));
   if (place_->kind == OutputPlace::Kind::in_place) return 0;
 
-  // Some file systems (vfat, CIFS) have neither owners nor permissions. The file is as good without.
+  // Some file systems (vfat, CIFS) have neither owners nor permissions. The file is just as good without them.
   if (place_->kind == OutputPlace::Kind::replaced) {
     mode_t mode = place_->mode;
     struct stat info {};
     if (::fstat(file_, &info) == 0 && (info.st_uid != place_->user || info.st_gid != place_->group) &&
         ::fchown(file_, place_->user, place_->group) != 0) {
-      // Another group than before may not do more than everybody.
+      // A group other than before gets no more rights than everybody.
       mode &= ~static_cast<mode_t>(S_IRWXG) | (mode & S_IRWXO) << 3;
     }
     (void)::fchmod(file_, mode);
@@ -224,8 +224,8 @@ int GrowingFile::copy_in_place() {
   return code != 0 ? code : closed;
 }
 
-// The file before goes on under another name, so that undo() can bring it back. 0 or an errno. With `exchanged` the new
-// file has taken its place already.
+// Keeps the previous file under another name, so that undo() can restore it. 0 or an errno. With `exchanged` the new
+// file already has its name.
 int GrowingFile::put_old_aside(bool& exchanged) {
   const std::string& name = place_->name;
   // The lock says that this program is alive: see remove_left_parts().
@@ -244,8 +244,8 @@ int GrowingFile::put_old_aside(bool& exchanged) {
   return 0;
 }
 
-// `keep_old`: so that undo() can bring it back. 0 or an errno. Nothing here or in undo() reserves memory, for a program
-// may end where it finds none.
+// `keep_old`: so that undo() can bring it back. 0 or an errno. Nothing here or in undo() allocates memory, because a
+// program may end when there is none.
 int GrowingFile::take_place(bool keep_old) {
   const std::string& name = place_->name;
   // The usual way of a new file: no other name is ever seen.
@@ -285,7 +285,7 @@ Status GrowingFile::finish_together(std::vector<GrowingFile>& files) {
   for (GrowingFile& file : files)
     if (const int code = file.settle(); code != 0) return file.failed(code);
 
-  // Take the places, then write those that must be written in place.
+  // Replace the files, then write those that must be written in place.
   const bool several = files.size() > 1;
   const auto undo_all = [&files] {
     for (GrowingFile& file : files) file.undo();

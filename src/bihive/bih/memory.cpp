@@ -35,8 +35,9 @@ MemoryPrediction predict_tree_memory(std::int64_t spheres, const BuildParameters
   const double max_prims = static_cast<double>(std::min<std::int64_t>(parameters.max_prims, spheres));
 
   // Measured over the scenarios (64 to 100,000 spheres, radius 0.001 and 1), random sets and molecules at max_prims 1
-  // to 64: 0.84 (grids that overlap themselves) to 2.6 times as many leaves as full leaves would be, 1.45 a sphere at
-  // max_prims 1, with up to 0.41 clip nodes a leaf. A limited depth can end a chain of nodes early, which saves leaves.
+  // to 64: 0.84 (grids that overlap themselves) to 2.6 times as many leaves as full leaves would be, 1.45 per sphere at
+  // max_prims 1, with up to 0.41 clip nodes per leaf. A limited depth can end a chain of nodes early, which saves
+  // leaves.
   const double full_leaves = n / std::max(1.0, max_prims);
   const bool limited = most_leaves < full_leaves;
   const TreeShape low{std::max(1.0, limited ? 0.25 * most_leaves : 0.8 * full_leaves), 0, 0.05};

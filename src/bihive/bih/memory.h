@@ -8,7 +8,7 @@
 namespace bihive {
 
 /// `low`: a balanced tree of full leaves (the thesis's Scenario 1), less a fifth for spheres that coincide. `high`: the
-/// most scattered sets measured (small Scenarios 2). Sets of a file fall between; docs/bih.md says what can exceed it.
+/// most scattered sets measured (small Scenarios 2). Sets of a file fall between; docs/bih.md names what can exceed it.
 struct MemoryPrediction {
   struct Range {
     std::int64_t low = 0, high = 0;

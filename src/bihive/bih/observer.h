@@ -9,7 +9,7 @@ namespace bihive {
 struct NoObserver {
   void node_visit() {}   ///< an inner node is entered
   void leaf_visit() {}   ///< a leaf is entered (empty leaves are not stored and never entered)
-  void empty_gap() {}    ///< the ray's part inside a split node overlaps the gap between its children
+  void empty_gap() {}    ///< the ray's interval in a split node overlaps the gap between its children
   void sphere_test() {}  ///< a ray is tested against a sphere
 };
 

@@ -42,7 +42,7 @@ class LeafCounter {
 }  // namespace
 
 TreeStatistics tree_statistics(const Tree& tree) {
-  // Walk the tree with every node's depth.
+  // Visit every node with its depth.
   TreeStatistics statistics;
   LeafCounter leaves;
   std::vector<std::pair<std::int64_t, std::int64_t>> pending{{0, 1}};

@@ -24,7 +24,7 @@ namespace bihive {
 /// Cuts a ray's interval at planes across an axis. It pads the planes, so it never cuts too much.
 class Slabs {
  public:
-  /// `more_pad`: for spheres that lie up to so much farther from the planes, in stored units.
+  /// `more_pad`: extra padding for spheres that reach up to this distance beyond the planes, in stored units.
   explicit Slabs(const ScaledRay& ray, double more_pad = 0) : ray_(ray) {
     // Bounds in stored units are at most 1, so rounding one to nearest moves it by at most 2^-25. Binary64 adds an
     // error of a few 2^-53 of the distance between the origin and the farthest point of the set.
@@ -35,12 +35,12 @@ class Slabs {
   /// The distance by which every plane is moved outward, in stored units.
   double pad() const { return pad_; }
 
-  /// The part at or below `plane` on the axis. `plane` bounds a child that lies lower.
+  /// The interval at or below `plane` on the axis. `plane` bounds a child that lies lower.
   Interval below(Interval part, int axis, double plane) const { return cut(part, axis, plane + pad_, true); }
-  /// The part at or above `plane`.
+  /// The interval at or above `plane`.
   Interval above(Interval part, int axis, double plane) const { return cut(part, axis, plane - pad_, false); }
 
-  /// For the traversal view, without padding: does the part overlap the open slab lo < coordinate < hi?
+  /// For the traversal view, without padding: does the interval overlap the open slab lo < coordinate < hi?
   bool overlaps(Interval part, int axis, double lo, double hi) const {
     if (part.empty() || !(lo < hi)) return false;
     const double origin = ray_.origin[axis];
@@ -73,10 +73,10 @@ class Slabs {
 };
 
 /// Takes a valid ray, in the stored units of `spheres`, to every sphere that it may hit up to answer.limit(), which
-/// may come nearer meanwhile. answer.take(t, id) gets the t of geometry/sphere.h (+inf: no hit), and ends the walk by
-/// true. An answer with test(id) in place of take() does the test itself. `more_pad` as for Slabs.
-// One function, though a long one: it defines the walk, so it is to be read from top to bottom, beside its twin for
-// graphics processors (gl/shaders/traversal.glsl), which has the same steps in the same order.
+/// may come nearer meanwhile. answer.take(t, id) gets the t of geometry/sphere.h (+inf: no hit), and ends the traversal
+/// by returning true. An answer with test(id) instead of take() does the test itself. `more_pad` as for Slabs.
+// One long function, because it defines the traversal: it reads from top to bottom, beside its twin for GPUs
+// (gl/shaders/traversal.glsl), which has the same steps in the same order.
 template <class Answer, class Observer>
 void walk(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Answer& answer, Observer& observer,
           double more_pad = 0) {
@@ -156,7 +156,7 @@ void walk(const Tree& tree, const SphereSet& spheres, const ScaledRay& ray, Answ
   }
 }
 
-/// The answer of a walk that looks for the closest hit, or for any.
+/// The answer of a traversal that searches for the closest hit, or for any.
 template <bool kAnyHit>
 struct NearestAnswer {
   Hit best;

@@ -56,9 +56,9 @@ std::vector<Visit> children_of(const Node& node, const Visit& visit) {
 Status validate_tree(const Tree& tree, const SphereSet& spheres) {
   if (tree.nodes.empty()) return wrong("there is no root", 0);
   if (static_cast<std::int64_t>(tree.sphere_ids.size()) != spheres.size())
-    return wrong("the index array has not one entry a sphere", 0);
+    return wrong("the index array does not have one entry per sphere", 0);
 
-  // Walk the tree; mark each node and sphere that it reaches.
+  // Traverse the tree; mark each node and sphere reached.
   std::vector<bool> node_met(tree.nodes.size()), sphere_met(tree.sphere_ids.size());
   std::int64_t oversized = 0;
   std::vector<Visit> pending{{0, tree.aabb, 1}};
@@ -73,7 +73,8 @@ Status validate_tree(const Tree& tree, const SphereSet& spheres) {
     if (visit.depth > tree.parameters.max_depth) return wrong("lies deeper than max_depth", at);
     if (!node.is_leaf()) {
       if (node.split_axis > 2) return wrong("has no axis", at);
-      if (std::isnan(node.left_clip) || std::isnan(node.right_clip)) return wrong("has a plane that is no number", at);
+      if (std::isnan(node.left_clip) || std::isnan(node.right_clip))
+        return wrong("has a plane that is not a number", at);
       for (const Visit& child : children_of(node, visit)) pending.push_back(child);
       continue;
     }
@@ -95,7 +96,7 @@ Status validate_tree(const Tree& tree, const SphereSet& spheres) {
     }
   }
 
-  // The walk reached everything, and the counts agree.
+  // The traversal reached everything, and the counts agree.
   for (std::size_t i = 0; i < node_met.size(); ++i)
     if (!node_met[i]) return wrong("is not reached from the root", static_cast<std::int64_t>(i));
   for (std::size_t i = 0; i < sphere_met.size(); ++i)

@@ -1,4 +1,4 @@
-// The periodic cell of a set of spheres, and the copies of the set that it asks for.
+// The periodic cell of a set of spheres, and copies of the set along it.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct Images {
   std::int64_t number(const std::array<std::int32_t, 3>& at) const {
     return (std::int64_t{at[0]} * counts[1] + at[1]) * counts[2] + at[2];
   }
-  /// By what the copy is moved: i * a + j * b + k * c in binary64, the sum from left to right. World units.
+  /// The translation of the copy: i * a + j * b + k * c in binary64, the sum from left to right. World units.
   Vec3d shift(const std::array<std::int32_t, 3>& at) const {
     return double(at[0]) * vectors[0] + double(at[1]) * vectors[1] + double(at[2]) * vectors[2];
   }

@@ -7,21 +7,21 @@
 
 namespace bihive {
 
-/// Takes away all points p with normal . p > offset. The normal may have any length above 0. World units.
+/// Removes all points p with normal . p > offset. The normal may have any length above 0. World units.
 struct PlaneClip {
   Vec3d normal;
   double offset = 0;
 };
-/// Takes away the inside of the box between two corners, lo < hi along each axis.
+/// Removes the inside of the box between two corners, lo < hi along each axis.
 struct BoxClip {
   Vec3d lo, hi;
 };
-/// Takes away the inside of a sphere, radius > 0.
+/// Removes the inside of a sphere, radius > 0.
 struct SphereClip {
   Vec3d centre;
   double radius = 0;
 };
-/// The borders of these shapes are not taken away: they become the caps of the spheres.
+/// The boundaries of these shapes are not removed: they become the caps of the spheres.
 using Clip = std::variant<PlaneClip, BoxClip, SphereClip>;
 
 inline bool operator==(const PlaneClip& a, const PlaneClip& b) {
@@ -34,7 +34,7 @@ inline bool operator==(const SphereClip& a, const SphereClip& b) {
   return a.centre == b.centre && a.radius == b.radius;
 }
 
-/// The most different clips of a scene: each sphere has a bit for each clip (SphereAttributes::clips).
+/// The maximum number of different clips of a scene: each sphere has a bit for each clip (SphereAttributes::clips).
 constexpr int kMostClips = 64;
 
 }  // namespace bihive

@@ -16,12 +16,12 @@ void for_each_clip(std::uint64_t mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(__builtin_ctzll(mask));
 }
 
-// The parts of a line that the clips of one sphere take.
+// The intervals of a line that the clips of one sphere remove.
 struct TakenParts {
   const CutRay& ray;
   std::uint64_t clips;
 
-  // Goes from a place inside taken parts to their end.
+  // Advances from a point inside removed intervals to their end.
   void leave(CutHit& place) const {
     for (bool moved = true; moved;) {
       moved = false;
@@ -34,7 +34,8 @@ struct TakenParts {
     }
   }
 
-  // The end of what is left, from a place on that no part takes: `end`, or where a part begins before it.
+  // The end of the remaining interval, from a point that no clip removes: `end`, or an earlier point where a removed
+  // interval begins.
   CutHit next_end(double place, CutHit end) const {
     for_each_clip(clips, [&](int k) {
       const TakenPart& part = ray.taken[static_cast<std::size_t>(k)];
@@ -130,7 +131,7 @@ CutHit CutSet::hit(const CutRay& cut_ray, std::int64_t id) const {
   if (!(roots.t_far >= ray.t_min)) return {};
   const TakenParts taken{cut_ray, cutting(id)};
 
-  // Go along the line, from one part that is left to the next.
+  // Step along the line, from one remaining interval to the next.
   CutHit place{own ? -kEndOfLine : roots.t_near, -1, 0};
   for (;;) {
     taken.leave(place);

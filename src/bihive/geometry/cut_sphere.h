@@ -13,7 +13,7 @@
 
 namespace bihive {
 
-/// Where a ray meets a cut sphere.
+/// The hit of a ray and a cut sphere.
 struct CutHit {
   double t = std::numeric_limits<double>::infinity();
   int clip = -1;  ///< whose cap it is; -1: the sphere's own surface
@@ -23,8 +23,8 @@ struct CutHit {
 /// The spheres of a set with the clips that act on them. Const; any number of threads may ask.
 class CutSet {
  public:
-  /// `clips_of_sphere`: of each sphere a bit for each clip; empty: no clip acts. Both must outlive this. Spheres that
-  /// join them later are looked at whenever somebody asks for them.
+  /// `clips_of_sphere`: of each sphere a bit for each clip; empty: no clip acts. Both must outlive this. Spheres added
+  /// later are examined on every query.
   CutSet(const SphereSet& spheres, const std::vector<Clip>& clips, const std::vector<std::uint64_t>& clips_of_sphere);
 
   Remainder remainder(std::int64_t id) const { return of_sphere(id).remainder; }
@@ -32,11 +32,11 @@ class CutSet {
     return id >= 0 && id < static_cast<std::int64_t>(clips_of_sphere_->size()) && remainder(id) == Remainder::cut;
   }
 
-  /// A valid ray as the cut spheres meet it. If it leaves a cut sphere, it leaves the surface to which its origin is
-  /// nearest: of the ball, or of one of its clips; of equally near ones the ball, then the first clip.
-  /// It knows what the clips of `clips`, a bit each, take of it.
+  /// A valid ray as the cut spheres meet it. If it starts on a cut sphere, it exits the surface to which its origin is
+  /// nearest: of the ball, or of one of its clips; of equally near ones the ball, then the first clip. It knows what
+  /// the clips of `clips`, a bit each, remove from it.
   CutRay entering(const Ray& ray, std::uint64_t clips) const;
-  /// The same in the place of another ray, which is quicker.
+  /// The same, overwriting another ray, which is faster.
   void enter(const Ray& ray, std::uint64_t clips, CutRay& entered) const;
 
   /// The clips whose border meets the sphere, a bit each.
@@ -45,13 +45,14 @@ class CutSet {
   /// Whether some clip is a sphere.
   bool has_round_clips() const { return has_round_clips_; }
 
-  /// Narrows the segment of a ray to where it may meet spheres that all of these clips cut. False: nowhere.
+  /// Narrows the segment of a ray to the interval in which it may meet spheres that all of these clips cut. False:
+  /// empty.
   static bool narrow(std::uint64_t clips, CutRay& ray);
 
-  /// The clips leave one or more parts of the line in a ball, closed by the ball's surface and by caps. The hit is the
-  /// first end of a part that lies in the segment: where the ray gets in, or where it gets out if it starts inside.
-  /// The surface that the ray leaves counts as the ray says: it is not met again at t = 0. The ray must know the clips
-  /// of the sphere.
+  /// The clips leave one or more intervals of the line in a ball, closed by the ball's surface and by caps. The hit is
+  /// the first end of an interval that lies in the segment: where the ray enters, or where it exits if it starts
+  /// inside. The surface on which the ray starts counts as the ray says: it is not met again at t = 0. The ray must
+  /// know the clips of the sphere.
   CutHit hit(const CutRay& ray, std::int64_t id) const;
 
   /// The outward normal, of length 1, at the cap where the ray hits the sphere. False: it hits the ball's own surface,

@@ -7,7 +7,7 @@
 
 namespace bihive {
 
-/// Calls use(id, centre, radius) in the order of ids; world units. Quicker than SphereSet::centre() for each id.
+/// Calls use(id, centre, radius) in the order of ids; world units. Faster than SphereSet::centre() for each id.
 template <class Use>
 void for_each_sphere(const SphereSet& spheres, const Use& use) {
   for (std::int64_t id = 0; id < spheres.size(); ++id) use(id, spheres.centre(id), spheres.radius(id));

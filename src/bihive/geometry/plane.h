@@ -31,7 +31,7 @@ struct PlaneAxes {
 };
 
 inline PlaneAxes plane_axes(Vec3d normal) {
-  // Start from the world axis that lies flattest in the plane; of equal ones the first.
+  // Start from the world axis closest to the plane; of equal ones the first.
   int flattest = 0;
   for (int axis = 1; axis < 3; ++axis)
     if (std::abs(normal[axis]) < std::abs(normal[flattest])) flattest = axis;

@@ -1,4 +1,4 @@
-// A ray on entry to a query: in binary64, in the stored units of one sphere set.
+// A ray as a query uses it: in binary64, in the stored units of one sphere set.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 namespace bihive {
 
 /// Stored units are world units times a power of two. The scaling is exact and multiplies origin and direction alike,
-/// so t is unchanged. The ray keeps centre and radius of the sphere that it leaves, not the id: spheres that coincide
-/// share one surface, and a ray that starts on it leaves all of them.
+/// so t is unchanged. The ray keeps centre and radius of the sphere that it exits, not the id: spheres that coincide
+/// share one surface, and a ray that starts on it exits all of them.
 struct ScaledRay {
   Vec3d origin;
   Vec3d direction;
   double direction_squared;  ///< direction . direction
   double t_min, t_max;
   bool inside;
-  Vec3d left_centre;        ///< of the sphere that the ray leaves
-  double left_radius = -1;  ///< -1: it leaves none
+  Vec3d left_centre;        ///< of the sphere that the ray exits
+  double left_radius = -1;  ///< -1: it exits none
 
-  /// A valid ray that leaves no sphere, or for which that sphere does not matter.
+  /// A valid ray that exits no sphere, or for which that sphere does not matter.
   ScaledRay(const Ray& ray, double scale)
       : origin(to_double(ray.origin) * scale),
         direction(to_double(ray.direction) * scale),

@@ -1,4 +1,4 @@
-// What is known of spheres beyond place and size: elements, types, colours, and the named columns of their file.
+// Properties of spheres beyond position and radius: elements, types, colours, and the named columns of their file.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct NamedNumbers {
   std::vector<double> values;
 };
 
-/// One text for each sphere under a name (chain, name of the atom ...). Each distinct text stands once in `texts`.
+/// One text for each sphere under a name (chain, name of the atom ...). Each distinct text is stored once in `texts`.
 struct NamedTexts {
   std::string name;
   std::vector<std::string> texts;            ///< distinct, in order of appearance
@@ -31,14 +31,14 @@ class TextCollector {
  public:
   void reserve(std::size_t spheres) { text_of_sphere_.reserve(spheres); }
   void add(std::string_view text);
-  /// The texts of another collector, behind these.
+  /// Appends the texts of another collector.
   void append(const TextCollector& other);
   /// Leaves it empty, with its memory.
   void clear();
 
   const std::vector<std::string>& texts() const { return texts_; }
   const std::vector<std::int32_t>& text_of_sphere() const { return text_of_sphere_; }
-  /// True if every text so far is empty.
+  /// True if every collected text is empty.
   bool all_empty() const { return texts_.empty() || (texts_.size() == 1 && texts_.front().empty()); }
   /// The column; leaves the collector empty.
   NamedTexts take(std::string name);

@@ -9,7 +9,7 @@
 
 namespace bihive {
 
-/// Where distances end: at the surface of a sphere, below 0 for a point inside of it, or at its centre.
+/// The end point of a distance: the surface of a sphere (negative for a point inside it), or its centre.
 enum class DistanceTo { surface, centre };
 
 /// All in one unit (the engines: stored units of a set). sqrt(x * x + y * y + z * z) of the vector between the two

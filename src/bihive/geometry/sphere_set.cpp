@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-// The set counts radii below this share of the extent: their squares still fit binary32, but little else does.
+// Radii below this fraction of the extent are counted: their squares still fit binary32, but little else does.
 constexpr double kVanishingShare = 0x1p-60;
 
 // Scales the smallest number of binary32, 2^-149, to 1. A binary64 file may hold smaller sets, but no ray can see them,

@@ -5,7 +5,7 @@
 // underflow for worlds measured in 1e-20 as in 1e20. Ids are 0-based positions in the order in which the set was read;
 // counts are 64-bit.
 //
-// A set may stand for copies of itself (images, geometry/cell.h), of which only the first is stored. The others have
+// A set may represent copies of itself (images, geometry/cell.h), of which only the first is stored. The others have
 // ids too: that of sphere `id` in copy k is k * size() + id.
 #pragma once
 
@@ -24,8 +24,8 @@
 
 namespace bihive {
 
-/// Numbers that somebody else keeps, `step_bytes` apart: a column of a table, for example. The step may be negative, or
-/// 0: one number for all. They need not be aligned.
+/// A view of numbers owned by somebody else, `step_bytes` apart: for example a column of a table. The step may be
+/// negative, or 0: one number for all. They need not be aligned.
 struct NumbersView {
   enum class Precision { binary32, binary64 };
 
@@ -44,10 +44,10 @@ class SphereSet {
  public:
   SphereSet() = default;
 
-  /// A set of these spheres in these units, without images: a part of a larger set whose units they are. Every bound
-  /// must lie in [-1, 1].
+  /// A set of these spheres in these units, without images: a subset of a larger set, which defines the units. Every
+  /// bound must lie in [-1, 1].
   static SphereSet from_stored(StoredSpheres spheres, int scale_exponent);
-  /// Adds spheres in the set's own stored units, behind the others. The set has no images.
+  /// Appends spheres in the set's own stored units. The set has no images.
   void append_stored(const StoredSpheres& spheres);
   /// The spheres with these ids, in this order, without touching the attributes.
   void order_stored(const std::vector<std::int64_t>& ids);
@@ -70,7 +70,7 @@ class SphereSet {
   static Result<double> extent_of_world(const std::vector<double>& x, const std::vector<double>& y,
                                         const std::vector<double>& z, const std::vector<double>& r,
                                         std::int64_t first_id);
-  /// The same from numbers where they lie. x, y and z must have the same precision.
+  /// The same from numbers in place. x, y and z must have the same precision.
   static Result<SphereSet> from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
                                       const NumbersView& r);
 
@@ -85,7 +85,7 @@ class SphereSet {
   /// The stored sphere of which this one is an image, or itself. Negative ids (nothing, the plane) stay what they are.
   std::int64_t stored_id(std::int64_t id) const { return id < size() ? id : id % size(); }
 
-  /// Makes the set stand for counts[0] x counts[1] x counts[2] copies of it along `vectors` (world units). The centre
+  /// Makes the set represent counts[0] x counts[1] x counts[2] copies of it along `vectors` (world units). The centre
   /// of an image is the stored centre plus Images::shift(), a sum in binary64, rounded once to binary32. Nothing is
   /// copied; the stored units change, so that all images are within [-1, 1]. Images that it had before are gone; 1 x 1
   /// x 1 leaves none. Error: a count below 1, a vector that is not finite or of length 0 where there are copies along
@@ -99,7 +99,7 @@ class SphereSet {
   std::optional<Cell>& cell() { return cell_; }
   const std::optional<Cell>& cell() const { return cell_; }
 
-  /// Of the stored spheres, in stored units.
+  /// The stored spheres' centres and radii, in stored units.
   const std::vector<float>& x() const { return x_; }
   const std::vector<float>& y() const { return y_; }
   const std::vector<float>& z() const { return z_; }

@@ -104,7 +104,7 @@ TakenPart StoredClip::by_box(const CutRay& cut_ray) const {
     const int lower = 2 * axis;
     const bool leaves_lower = cut_ray.leaves_plane && cut_ray.plane == key_of_face(lower);
     const bool leaves_upper = cut_ray.leaves_plane && cut_ray.plane == key_of_face(lower + 1);
-    // A ray that leaves a face goes away from the box, or to the opposite face.
+    // A ray that starts on a face goes away from the box, or to the opposite face.
     if (leaves_lower || leaves_upper) {
       if (cut_ray.to_front != leaves_lower) return TakenPart::nothing();
       const double t = leaves_lower ? (hi_[axis] - origin) / speed : (lo_[axis] - origin) / speed;

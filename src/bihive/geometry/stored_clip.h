@@ -20,7 +20,7 @@ struct PlaneKey {
   friend bool operator==(const PlaneKey& a, const PlaneKey& b) { return a.normal == b.normal && a.offset == b.offset; }
 };
 
-/// The open part of a line that a clip takes away: empty unless t_in < t_out. `face_in`, `face_out`: of a box, the
+/// The open interval of a line that a clip removes: empty unless t_in < t_out. `face_in`, `face_out`: for a box, the
 /// faces at both ends: twice the axis, and 1 more for the upper one.
 struct TakenPart {
   double t_in, t_out;
@@ -35,8 +35,8 @@ struct TakenPart {
   bool empty() const { return !(t_in < t_out); }
 };
 
-/// A ray that may leave a cap. If it leaves a sphere, or the round cap that a sphere of this place and size made, the
-/// scaled ray says so; `inside` then means that it goes into that sphere.
+/// A ray that may start on a cap. If it exits a sphere, or the round cap that a sphere of this centre and radius made,
+/// the scaled ray says so; `inside` then means that it goes into that sphere.
 struct CutRay {
   explicit CutRay(const ScaledRay& entering) : ray(entering) {}
 
@@ -44,7 +44,7 @@ struct CutRay {
   bool leaves_plane = false;  ///< a flat cap
   PlaneKey plane;             ///< of this cap
   bool to_front = false;      ///< the side to which the ray goes
-  /// The part of the line that each clip takes away; the entries of the clips that were asked for (CutSet::entering).
+  /// The interval of the line that each clip removes; the entries of the clips that were asked for (CutSet::entering).
   std::array<TakenPart, kMostClips> taken;
 };
 
@@ -57,27 +57,27 @@ class StoredClip {
   StoredClip(const Clip& clip, double scale);
 
   bool is_round() const { return kind_ == Kind::sphere; }
-  /// Whether it is a ball of this place and size.
+  /// Whether it is a ball with this centre and radius.
   bool is_ball(Vec3d centre, double radius) const { return is_round() && lo_ == centre && radius_ == radius; }
 
-  /// A sphere that the border touches is cut. A sphere of radius 0, which no ray meets, remains whole.
+  /// A sphere that the boundary touches is cut. A sphere of radius 0, which no ray meets, remains whole.
   Remainder remainder(Vec3d centre, double radius) const;
 
   TakenPart taken(const CutRay& cut_ray) const;
 
-  /// How far a point of the surface of a cut sphere is from this clip's border, and on which face of a box. The surface
-  /// with the smallest distance is the one on which the point lies.
+  /// The distance of a point on the surface of a cut sphere from this clip's boundary, and the face of a box. The
+  /// surface with the smallest distance is the one on which the point lies.
   struct Place {
     double distance;
     int face;
   };
   Place place(Vec3d point) const;
 
-  /// Tells a ray, whose origin lies on this border, that it leaves it there. `into_clip`: it goes to the side that is
-  /// taken away.
+  /// Tells a ray, whose origin lies on this boundary, that it exits there. `into_clip`: it goes to the side that is
+  /// removed.
   void leave(int face, bool into_clip, CutRay& ray) const;
 
-  /// The direction, of length 1, from the cap into what is taken away. The point is origin + along.
+  /// The direction, of length 1, from the cap into the removed side. The point is origin + along.
   Vec3d outward(int face, Vec3d origin, Vec3d along) const;
 
  private:
@@ -96,7 +96,7 @@ class StoredClip {
   double offset_ = 0;
   Vec3d lo_, hi_;  // box; sphere: lo_ is the centre
   double radius_ = 0;
-  // Of a plane.
+  // For a plane.
   PlaneKey key_;
   double length_ = 1;  // of the normal
   bool takes_front_ = false;

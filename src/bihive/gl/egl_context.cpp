@@ -61,7 +61,7 @@ Result<EglFunctions> load_egl() {
   take(egl.Terminate, "eglTerminate");
   if (!complete) return no_egl(std::string(file) + " is no EGL");
 
-  // Extensions that every EGL of the last ten years has; still, check for them.
+  // Extensions that every EGL of the last ten years has; check for them anyway.
   const auto take_extension = [&](auto& function, const char* name) {
     function = reinterpret_cast<std::decay_t<decltype(function)>>(egl.GetProcAddress(name));
   };

@@ -9,8 +9,8 @@
 
 namespace bihive {
 
-/// The program looks for EGL only when it needs a context: in libEGL.so.1, or in the file that BIHIVE_EGL in the
-/// environment names. A graphics processor is preferred to Mesa's software.
+/// EGL is loaded only when a context is needed: libEGL.so.1, or the file named by the environment variable BIHIVE_EGL.
+/// A graphics processor is preferred to Mesa's software.
 class EglContext {
  public:
   /// Makes a context and makes it current in this thread. Error: there is no EGL, or it gives no such context; the hint

@@ -42,7 +42,7 @@ Status FilmTextures::choose_format() {
   }
   destroy();
   if (found) return Done{};
-  return Error{"this graphics processor cannot draw into textures of 128 bits a texel", "", 0, 0,
+  return Error{"this graphics processor cannot draw into textures of 128 bits per texel", "", 0, 0,
                "choose an engine of the CPU"};
 }
 

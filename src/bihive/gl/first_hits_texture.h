@@ -1,4 +1,4 @@
-// The first hits of one sample of every pixel, for outlines (shaders/first_hits.glsl): four integers a pixel, with a
+// The first hits of one sample of every pixel, for outlines (shaders/first_hits.glsl): four integers per pixel, with a
 // border of pixels around the picture.
 #pragma once
 
@@ -16,7 +16,7 @@ class FirstHitsTexture {
   Status resize(int width_px, int height_px);
   void destroy();
 
-  /// Draws go into it from now on, into all of it.
+  /// Makes it the target of draws, all of it.
   void draw_into() const;
   GLuint texture() const { return texture_; }
   /// Waits until everything is drawn.

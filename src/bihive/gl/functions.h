@@ -1,5 +1,5 @@
-// The functions of OpenGL ES 3.00 that the library uses, found at run time. Nothing of GL is linked to the program, so
-// the program also starts on machines without GL. Under WebAssembly they are the browser's functions.
+// The functions of OpenGL ES 3.00 that the library uses, found at run time. GL is not linked to the program, so the
+// program also starts on machines without GL. Under WebAssembly they are the browser's functions.
 #pragma once
 
 #include <GLES3/gl3.h>

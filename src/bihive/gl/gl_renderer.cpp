@@ -31,10 +31,10 @@ constexpr int kUnitOfFilm = 0, kUnitOfFirstHits = 6, kUnitOfSamples = 7, kUnitOf
 // Alpha above this: shaders/film.glsl says that the driver has stopped the loops of a pixel.
 constexpr float kLoopsStopped = 1e11F;
 
-// A step of first hits is a part of a sample's work.
+// The cost of first hits, as a fraction of a sample's.
 constexpr double kShareOfFirstHits = 0.1;
 
-// Pixels of so many rays are drawn in small blocks, so that no draw takes long.
+// Pixels with at least this many rays are drawn in small blocks, so that no draw takes long.
 int block_for(int rays_of_pixel) {
   return rays_of_pixel <= 8 ? TileWalk::kBlockPx : 16;
 }
@@ -204,7 +204,7 @@ class GlRenderer::Implementation {
   bool finished() const { return step_ != Step::range && pass_ == settings_.samples_per_pixel; }
   int samples_done() const { return step_ == Step::range ? 0 : pass_; }
 
-  // Slices may become smaller on the way; it never goes back.
+  // Slices may become smaller during a picture; the share never decreases.
   double done() {
     done_ = finished() ? 1 : std::max(done_, done_now());
     return done_;
@@ -267,7 +267,7 @@ class GlRenderer::Implementation {
  private:
   enum class Step { range, first_hits, coverage, light };
 
-  // The film has the sum of all light; what covers a pixel has the mean of its own.
+  // The film has the sum of all light; coverage has its own mean.
   void read_coverage(Film& film) {
     const auto samples = static_cast<float>(settings_.samples_per_pixel);
     film.coverage.assign(film.radiance.size(), 0);
@@ -297,7 +297,7 @@ class GlRenderer::Implementation {
     return (step_ == Step::range ? passes : samples + passes) / (2 * samples);
   }
 
-  // Does the driver stop loops that run for long?
+  // Does the driver stop long loops?
   Status probe_loops() {
     Result<GlProgram> probe = GlProgram::link(
         gl_, "probe_loops", film_.of_bits() ? std::vector<std::string>{"FILM_OF_BITS"} : std::vector<std::string>{});
@@ -317,13 +317,13 @@ class GlRenderer::Implementation {
 
   // The film's texture that the pass draws into; the other is that of the pass before.
   int target() const { return pass_ % 2; }
-  // Slices but the last one add up in a film of their own.
+  // All slices except the last add up in a film of their own.
   bool is_last_slice() const { return slice_ + 1 == static_cast<int>(slices_.size()); }
   const FilmTextures& current_film() const { return is_last_slice() ? film_ : sample_film_; }
   int current_target() const { return is_last_slice() ? target() : slice_ % 2; }
   TileWalk& current_walk() { return step_ == Step::first_hits || step_ == Step::coverage ? finder_walk_ : walk_; }
 
-  // What of the scene and the settings has an effect on the light of samples?
+  // Which properties of scene and settings affect the light of samples?
   void find_effects() {
     const bool shaded = settings_.view == View::shaded;
     layers_ = (shaded || settings_.view == View::recursion) && settings_.opacity_rule == OpacityRule::once &&
@@ -360,7 +360,7 @@ class GlRenderer::Implementation {
   int rays_of_slice() const { return (layers_ ? kRaysOfLayerSlice : kRaysOfSlice) / smaller_by_; }
   void divide_light() { slices_ = light_slices(work_, std::max(1, rays_of_slice())); }
 
-  // Of the slice that was drawn.
+  // The rays of the slice that was drawn.
   bool has_stopped_loops() {
     if (!stops_loops_ || settings_.view != View::shaded) return false;
     bool stopped = false;
@@ -559,7 +559,7 @@ class GlRenderer::Implementation {
   Camera camera_;
   Tile drawn_{};                  // the film's pixels in the whole picture
   GlProgram* program_ = nullptr;  // null: no picture was begun
-  GlProgram* finder_ = nullptr;   // of first hits; null: the picture needs none
+  GlProgram* finder_ = nullptr;   // for first hits; null: the picture needs none
   GlProgram* coverer_ = nullptr;  // the same for coverage
   Step step_ = Step::light;
   TileWalk walk_, finder_walk_;
@@ -567,7 +567,7 @@ class GlRenderer::Implementation {
   bool layers_ = false;
   int border_ = 0;  // of the first hits around the picture
   bool stops_loops_ = false;
-  int smaller_by_ = 1;  // slices than usual, for this scene
+  int smaller_by_ = 1;  // divisor of the usual slice size, for this scene
   double done_ = 0;
   LightWork work_;
   std::vector<LightSlice> slices_{{}};

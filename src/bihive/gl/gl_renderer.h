@@ -1,9 +1,9 @@
 // Whitted's pictures on a graphics processor by OpenGL ES 3.00, in a window, in a browser, or without either.
 //
-// One fragment shader traces a pixel. It walks the reference tree with an explicit stack, in binary32, and follows
+// One fragment shader traces a pixel. It traverses the reference tree with an explicit stack, in binary32, and follows
 // reflected and transmitted rays with a second stack of at most recursion + 1 pending rays (gl/shaders). The picture is
-// made in passes of one sample for every pixel, the light of a sample in slices (gl/light_slices.h), and both in tiles.
-// So no draw call takes long, and the caller may stop in between. Colours agree with the CPU's within a tolerance
+// drawn in passes of one sample per pixel, the light of a sample in slices (gl/light_slices.h), and both in tiles. So
+// no draw call takes long, and the caller may stop in between. Colours agree with the CPU's within a tolerance
 // (docs/gpu.md), not bit for bit.
 #pragma once
 
@@ -30,19 +30,19 @@ struct GlViewport {
 /// and create another renderer. Not to be used from two threads.
 class GlRenderer {
  public:
-  /// Error: the context is too old, or cannot draw into textures of 128 bits a texel.
+  /// Error: the context is too old, or cannot draw into textures of 128 bits per texel.
   static Result<GlRenderer> create(const GlFunctions& functions);
   GlRenderer(GlRenderer&& other) noexcept;
   GlRenderer& operator=(GlRenderer&& other) noexcept;
   ~GlRenderer();
 
-  /// Packs and uploads the spheres, their looks, plane, lights and background. With `tree` (of these spheres) rays walk
-  /// it. Without it (null) every sphere is tested: the thesis's brute force. The renderer keeps neither scene nor tree,
-  /// but 16 bytes for each sphere. Ends a picture that was begun. Error: clips cut some sphere, more spheres or nodes
-  /// than the context's textures hold, or the shader is refused; the scene before stays.
+  /// Packs and uploads the spheres, their materials, plane, lights and background. With `tree` (of these spheres) rays
+  /// traverse it. Without it (null) every sphere is tested: the thesis's brute force. The renderer keeps neither scene
+  /// nor tree, but 16 bytes per sphere. Ends a picture that was begun. Error: clips cut some sphere, more spheres or
+  /// nodes than the context's textures hold, or the shader is refused; the scene before stays.
   Status set_scene(const Scene& scene, const Tree* tree);
 
-  /// Uploads new lights, for a light that moves with the camera; everything else stays as set_scene() took it. Ends a
+  /// Uploads new lights, for a light that moves with the camera; everything else stays as in set_scene(). Ends a
   /// picture that was begun. Error: more lights than a texture holds.
   Status set_lights(const Scene& scene);
 
@@ -51,20 +51,19 @@ class GlRenderer {
   /// cell. A scene must have been set.
   Status begin(const Camera& camera, const RenderSettings& settings);
 
-  /// Draws tiles until about `budget_ms` have passed, at least one tile. Waits until the graphics processor has drawn
-  /// them.
+  /// Draws tiles until about `budget_ms` have passed, at least one tile. Waits until the GPU has drawn them.
   Status advance(double budget_ms);
 
   bool finished() const;
   double done() const;       ///< share of the whole picture, 0 to 1; it never falls
   int samples_done() const;  ///< passes that are complete for every pixel
 
-  /// Draws the picture so far, stretched to the viewport; the transfer applies to View::shaded. Before the first pass
-  /// is complete, pixels not yet drawn are the background's. A transparent background shows grey checks.
+  /// Draws the unfinished picture, stretched to the viewport; the transfer applies to View::shaded. Before the first
+  /// pass is complete, pixels not yet drawn are the background's. A transparent background shows grey checks.
   void show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer);
 
-  /// The finished picture, or of settings.crop that part of it, and the numbers of rays: `primary`, and all others as
-  /// `others`. Error: the driver has stopped the work of a pixel.
+  /// The finished picture, or its settings.crop, and the numbers of rays: `primary`, and all others as `others`. Error:
+  /// the driver has stopped the work of a pixel.
   struct Picture {
     Film film;
     std::int64_t primary = 0, others = 0;

@@ -49,7 +49,7 @@ void SampleTextures::set(const RenderSettings& settings, bool soft_light, double
   upload(rgba, light_points_);
 }
 
-// Nothing becomes one row of zeros, because a sampler needs a texture of its kind.
+// An empty set becomes one row of zeros, because a sampler needs a texture of its kind.
 void SampleTextures::upload(const std::vector<float>& rgba, Sets& sets) const {
   constexpr std::size_t kRow = std::size_t{4} * kTextureWidth;
   std::vector<float> rows = rgba;

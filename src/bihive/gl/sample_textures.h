@@ -1,5 +1,5 @@
-// The numbers by which the samples of a pixel differ, the same as the CPU's: places in the pixel and on the lens,
-// directions of ambient occlusion, points of lights.
+// The sampling patterns of a pixel, the same as the CPU's: positions in the pixel and on the lens, directions of
+// ambient occlusion, points of lights.
 #pragma once
 
 #include <vector>
@@ -12,18 +12,18 @@
 
 namespace bihive {
 
-/// Directions and points are texels of RGBA32F, one set behind the other, placed as in gl/tree_textures.h. The
+/// Directions and points are texels of RGBA32F, one set after the other, laid out as in gl/tree_textures.h. The
 /// functions' context must be current in every call.
 class SampleTextures {
  public:
   explicit SampleTextures(const GlFunctions& gl) : gl_(&gl) {}
 
-  /// For a picture. `soft_light`: some light has a radius; `scale`: stored units of a world unit.
+  /// Sets up a picture. `soft_light`: some light has a radius; `scale`: stored units per world unit.
   void set(const RenderSettings& settings, bool soft_light, double scale);
   void destroy();
 
   const CameraSample& camera_sample(int sample) const { return camera_[static_cast<std::size_t>(sample)]; }
-  /// Binds the textures to units `first_unit` and the next one, and puts the uniforms of a sample into the program in
+  /// Binds the textures to units `first_unit` and the next one, and sets the uniforms of a sample in the program in
   /// use.
   void put(GlProgram& program, int sample, int first_unit) const;
 

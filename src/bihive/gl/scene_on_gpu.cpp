@@ -10,7 +10,7 @@
 namespace bihive {
 namespace {
 
-// In the order of SceneOnGpu's textures.
+// Indices of SceneOnGpu's textures.
 constexpr std::array<const char*, 5> kSamplers{"spheres", "sphere_info", "nodes", "looks", "lights"};
 constexpr std::size_t kLights = 4;
 constexpr int kFirstUnit = 1;
@@ -36,7 +36,7 @@ int rounded_up(int number, int step) {
 }  // namespace
 
 Status SceneOnGpu::set(const Scene& scene, const Tree* tree) {
-  // Pack and upload into new objects; the scene before stays if anything fails.
+  // Pack and upload into new objects; the previous scene stays if anything fails.
   GLint most_rows = 0;
   gl_->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most_rows);
   Result<SceneTextures> packed = pack_scene(scene, tree, most_rows);
@@ -129,7 +129,7 @@ Result<GlProgram*> SceneOnGpu::program(const std::string& chunk, std::vector<std
 }
 
 Result<GlProgram*> SceneOnGpu::program_for(View view, int recursion, bool layers, bool ambient) {
-  // Each generation but the last two may leave one ray waiting; one size for recursion 1 to 6, one for 7 to 16.
+  // Each generation except the last two may leave one ray waiting; one size for recursion 1 to 6, one for 7 to 16.
   std::vector<std::string> defines{recursion <= 6 ? "PENDING_RAYS 6" : "PENDING_RAYS 16"};
   if (layers) defines.emplace_back("LAYERS");
   if (ambient) defines.emplace_back("AMBIENT_OCCLUSION");

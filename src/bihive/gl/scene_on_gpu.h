@@ -21,7 +21,7 @@ class SceneOnGpu {
  public:
   explicit SceneOnGpu(const GlFunctions& gl) : gl_(&gl) {}
 
-  /// From now on, programs draw into a film of bits (gl/film_textures.h).
+  /// Makes programs draw into a film of bits (gl/film_textures.h).
   void set_film_of_bits(bool film_of_bits) { film_of_bits_ = film_of_bits; }
 
   /// As GlRenderer::set_scene().
@@ -38,10 +38,10 @@ class SceneOnGpu {
   int light_count() const { return uniforms_.light_count; }
 
   bool has_soft_light() const { return has_soft_light_; }
-  /// Whether some sphere lets light through, and whether one does so straight.
+  /// Whether some sphere transmits light, and whether one does so straight.
   bool lets_light_through() const { return lets_light_through_; }
   bool is_passed_straight() const { return is_passed_straight_; }
-  /// The spheres' own lines: whether there are any, their largest width (0: none has one), and creases.
+  /// The spheres' own outlines: whether there are any, their largest width (0: none has one), and creases.
   bool has_own_lines() const { return has_own_lines_; }
   float widest_outline_px() const { return widest_outline_px_; }
   bool has_creases() const { return has_creases_; }
@@ -55,7 +55,7 @@ class SceneOnGpu {
   Result<GlProgram*> program_for_distance_range();
   Result<GlProgram*> program_for_first_hits(bool layers);
   Result<GlProgram*> program_for_coverage(bool layers);
-  /// Binds the textures, from texture unit 1 on, and puts every uniform of the scene into the program in use.
+  /// Binds the textures, from texture unit 1 on, and sets every uniform of the scene in the program in use.
   void put(GlProgram& program) const;
 
  private:

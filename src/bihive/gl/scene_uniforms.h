@@ -1,4 +1,4 @@
-// All single numbers of a scene and a camera that a shader takes, in stored units.
+// All scalars and vectors of a scene and a camera that a shader needs, in stored units.
 #pragma once
 
 #include "bihive/base/result.h"
@@ -27,14 +27,14 @@ struct SceneUniforms {
 
 struct CameraUniforms {
   bool has_parallel_rays = false;
-  Vec3f eye, forward, right, down;                          // of parallel rays, right and down are in stored units
-  Vec3f eye_lower, forward_lower, right_lower, down_lower;  // the rest after rounding to binary32
+  Vec3f eye, forward, right, down;                          // for parallel rays, right and down are in stored units
+  Vec3f eye_lower, forward_lower, right_lower, down_lower;  // the remainder after rounding to binary32
   float half_width = 0, half_height = 0;
   Vec3f view_forward;      // as forward, without the tilt
   float pixel_length = 0;  // of one pixel; with one eye, at distance 1
 
-  /// For the rays through one place on the lens. Error: as check_camera(), or an eye so far away (1e15 times the extent
-  /// of the spheres) that squares leave binary32.
+  /// For the rays through one point of the lens. Error: as check_camera(), or an eye so far away (1e15 times the extent
+  /// of the spheres) that squares exceed binary32.
   static Result<CameraUniforms> from(const Camera& camera, double scale, int width_px, int height_px,
                                      LensPlace place = {});
   void put(GlProgram& program) const;

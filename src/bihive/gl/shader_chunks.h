@@ -1,4 +1,4 @@
-// The chunks of GLSL inside the library: gl/shaders/NAME.glsl for each NAME.
+// The GLSL chunks embedded in the library: gl/shaders/NAME.glsl for each NAME.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// One shader's text, assembled from chunks that include each other by name.
+// The text of a shader, assembled from chunks that include each other by name.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace bihive {
 
 struct ShaderSource {
-  /// The origin of a line of the text: chunk and line, counted from 1. The empty chunk means no chunk.
+  /// The origin of a line of the text: chunk and line, counted from 1. Empty: no chunk.
   struct Origin {
     std::string chunk;
     std::int64_t line = 0;
@@ -30,7 +30,7 @@ struct ShaderSource {
 /// The text of a chunk by its name, or nothing.
 using ChunkFinder = std::function<std::optional<std::string_view>(std::string_view name)>;
 
-/// The chunk `name` behind "#version 300 es" and a #define for each of `defines` ("STACK_SIZE 32"). The first line
+/// The chunk `name` after "#version 300 es" and a #define for each of `defines` ("STACK_SIZE 32"). The first line
 /// `#include "other"` becomes the chunk `other`; later ones become nothing. So a chunk that two branches of an #if need
 /// must be included before the #if. Error: there is no such chunk; it names file and line of the #include.
 Result<ShaderSource> assemble_shader(std::string_view name, const std::vector<std::string>& defines,

@@ -7,15 +7,15 @@
 
 namespace bihive {
 
-/// Learns from draw to draw the time of a block, and the time that every draw takes, however small it is. Keeps both
-/// from pass to pass and from picture to picture.
+/// Estimates from draw to draw the time per block, and the fixed time per draw. Keeps both from pass to pass and from
+/// picture to picture.
 class TileWalk {
  public:
   static constexpr int kBlockPx = 32;
 
-  /// Starts at the first block of a picture. Smaller blocks are for pixels that take long.
+  /// Starts at the first block of a picture. Smaller blocks are for slow pixels.
   void restart(int width_px, int height_px, int block_px = kBlockPx) {
-    // A block's time goes with its area.
+    // A block's time is proportional to its area.
     block_ms_ *= double(block_px) * block_px / (double(block_px_) * block_px_);
     block_px_ = block_px;
     width_ = width_px;
@@ -32,9 +32,9 @@ class TileWalk {
 
   /// The next tile: some blocks of one row, or whole rows. It should take about `wanted_ms`.
   Tile next(double wanted_ms) {
-    // The time that every draw takes is worth it if the blocks take as long, or the whole wanted time.
+    // The fixed time of a draw pays off if the blocks take as long, or the whole wanted time.
     const double work_ms = std::max(wanted_ms - fixed_ms_, std::min(fixed_ms_, wanted_ms));
-    // At most four times as many blocks as the last time: blocks behind an empty sky may take seconds.
+    // At most four times as many blocks as last time: blocks after an empty sky may take seconds.
     planned_ = block_ms_ > 0 ? std::min({work_ms / block_ms_, 4 * planned_, 1e6}) : kFirstBlocks;
     const int column = next_ % columns_, row = next_ / columns_;
     planned_ = std::max(planned_, 1.0);
@@ -54,8 +54,8 @@ class TileWalk {
 
   /// The time of the last tile. If its blocks were cheaper than those before, only half of the difference counts.
   void took(double ms) {
-    // A draw takes at least as long as the fastest ones lately. Most of that time may be the same for every draw: it
-    // waits for a processor in another place.
+    // A draw takes at least as long as the fastest recent ones. Most of that time may be fixed, spent waiting for the
+    // GPU.
     const double most_fixed_ms = kMostFixed * std::max(ms, 1e-3);
     fixed_ms_ = block_ms_ > 0 ? std::min(kForget * fixed_ms_, most_fixed_ms) : most_fixed_ms;
     const double now = (std::max(ms, 1e-3) - fixed_ms_) / std::max(drawn_, 1);

@@ -45,7 +45,7 @@ float float_of(std::uint32_t bits) {
 }
 
 Look look_of(const Material& m) {
-  // Adding 0 makes -0 and 0 one look.
+  // Adding 0 makes looks with -0 and 0 equal.
   const auto number = [](double value) { return static_cast<float>(value) + 0.0F; };
   return {number(m.colour.x),
           number(m.colour.y),
@@ -142,7 +142,7 @@ Status pack_tree(const Tree& tree, std::int64_t most_texels, SceneTextures& pack
     out[3] = static_cast<std::uint32_t>(node.first);
   }
 
-  // Walk down every path and count its nodes with two children.
+  // Descend every path and count its nodes with two children.
   std::vector<std::pair<std::int64_t, int>> open{{0, 0}};
   while (!open.empty()) {
     const auto [position, above] = open.back();

@@ -1,18 +1,18 @@
-// The layout of spheres, their looks, lights and the tree in textures. Only this file packs them; shaders/textures.glsl
-// reads them, and bih/tree.h says what the numbers mean.
+// The layout in textures of spheres, their looks (materials), lights and the tree. Only this file packs them;
+// shaders/textures.glsl reads them, and bih/tree.h says what the numbers mean.
 //
 // Entry i of a texture is the texel (i mod 2048, i / 2048). All is binary32 in stored units (geometry/sphere_set.h).
 //
-//   spheres      RGBA32F  a texel a sphere, in leaf order and within a leaf in the order of ids (without a tree in that
-//                         order altogether): centre, radius
-//   sphere_info  RGBA32UI a texel a sphere: id in the input, look, group of creases, the bits of its own outline's
-//   width (-1: none) nodes        RG32UI   two texels a node: the bits of left_clip, right_clip;
+//   spheres      RGBA32F  a texel per sphere, in leaf order and within a leaf in the order of ids (without a tree
+//                         in that order altogether): centre, radius
+//   sphere_info  RGBA32UI a texel per sphere: id in the input, look, group of creases, the bits of its own outline's
+//                         width (-1: none)
+//   nodes        RG32UI   two texels per node: the bits of left_clip, right_clip;
 //                         kind (bits 0-2), split_axis (bits 3-4), sphere_count (bits 5-31); first
-//   looks        RGBA32F  four texels a look: colour, ambient; diffuse, reflective, specular, power; transmissive,
-//                         refraction_index, tint, glow; bands, what it lets through once for rays that see, for rays
-//                         that ask for light, 0 (render/transparency.h). Look 0 is the plane's; of the others no two
-//                         are equal.
-//   lights       RGBA32F  two texels a light: position, radius; colour, 0
+//   looks        RGBA32F  four texels per look: colour, ambient; diffuse, reflective, specular, power; transmissive,
+//                         refraction_index, tint, glow; bands, what it transmits once to viewing rays, to shadow rays
+//                         (render/transparency.h), 0. Look 0 is the plane's; of the others no two are equal.
+//   lights       RGBA32F  two texels per light: position, radius; colour, 0
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ struct SceneTextures {
   Texels<float, 4> lights;
 };
 
-/// `tree` may be null. Error: something does not fit a texture of `most_rows` rows.
+/// `tree` may be null. Error: the data does not fit a texture of `most_rows` rows.
 Result<SceneTextures> pack_scene(const Scene& scene, const Tree* tree, int most_rows);
 
 /// The lights alone; everything else stays empty.

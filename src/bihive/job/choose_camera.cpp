@@ -13,7 +13,7 @@ bool parallel(Vec3d a, Vec3d b) {
   return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
 }
 
-// A camera that the user places looks at the middle of the set, unless the scene or the user says otherwise.
+// A camera that the user places is aimed at the centre of the set, unless the scene or the user states otherwise.
 Camera placed(const Camera& before, const Input& input, const PictureRequest& request, const WholeSet* whole) {
   Camera camera = before;
   const SphereSet::Bounds bounds = whole != nullptr ? whole->bounds : RemainingSpheres(input.scene).set().bounds();
@@ -28,13 +28,13 @@ Camera placed(const Camera& before, const Input& input, const PictureRequest& re
   return camera;
 }
 
-// A camera that shows everything under a tiny angle stands too far away for single precision.
+// A camera that shows everything under a tiny angle is too far away for single precision.
 void refuse_bad(const Camera& camera, const PictureRequest& request) {
   constexpr double kTinyAngle = 1e-3;
   const Status status = check_camera(camera);
   if (status) return;
   if (request.fov_deg && *request.fov_deg < kTinyAngle && !request.eye)
-    fail_setting("fov", ": under so small an angle the camera would stand too far away", "choose a larger angle");
+    fail_setting("fov", ": with such a small angle the camera would be too far away", "choose a larger angle");
   fail_usage(status.error().message, status.error().hint);
 }
 
@@ -59,10 +59,10 @@ Camera choose_camera(const Input& input, const PictureRequest& request, const Re
   const Projection projection = request.projection.value_or(camera.projection);
   const bool fitted = !input.has_camera || request.view_from;
   if (fitted) {
-    // The fit is for the direction after the turn. A camera that the user places is turned below.
+    // The fit uses the direction after the turn. A camera that the user places is turned below.
     Side side = side_of(request.view_from.value_or(ViewFrom::front));
     if (request.turn && !user_places) side = turned(side, *request.turn);
-    // From an eye of the user's own, the angle decides how much is seen.
+    // With the user's own eye point, the angle decides how much is visible.
     const Lens lens{camera.fov_deg, request.eye ? Projection::perspective : projection};
     camera = whole != nullptr ? whole->frame(input.scene, side, lens, settings)
                               : frame_picture(input.scene, side, lens, settings, request.dots_per_inch);

@@ -12,16 +12,16 @@
 
 namespace bihive {
 
-/// Facts about the whole set that a picture needs, for a process that holds a chunk of it (commands/render_spread.cpp).
+/// Facts about the whole set that a picture needs, in a process that holds a chunk of it (commands/render_spread.cpp).
 struct WholeSet {
   std::int64_t count = 0;
   SphereSet::Bounds bounds;  ///< of what clips leave
-  /// As frame_picture(). For all processes that have chunks, at the same time.
+  /// As frame_picture(). Collective: all processes that have chunks call it.
   std::function<Camera(const Scene&, const Side&, const Lens&, const RenderSettings&)> frame;
 };
 
-/// The scene's own camera, or one that shows everything; the user's options replace parts of it. Fails with kBadUsage
-/// if the options contradict each other or the camera sees nothing. `whole`: null if the scene has all spheres.
+/// The scene's own camera, or one that shows everything, with the user's options. Fails with kBadUsage if the options
+/// contradict each other or the camera sees nothing. `whole`: null if the scene has all spheres.
 Camera choose_camera(const Input& input, const PictureRequest& request, const RenderSettings& settings,
                      const WholeSet* whole = nullptr);
 

@@ -10,7 +10,7 @@
 namespace bihive {
 namespace {
 
-// Takes one label out where the picture cannot have it.
+// Removes one label if the picture cannot have it.
 void check_one(bool Labels::*label, bool asked_for, std::string_view id, const Scene& scene, RenderSettings& settings) {
   RenderSettings alone = settings;
   alone.labels = {};

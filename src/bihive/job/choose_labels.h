@@ -1,4 +1,4 @@
-// What bihive render writes on a picture.
+// The labels of a picture of bihive render.
 #pragma once
 
 #include "bihive/job/picture_request.h"
@@ -7,8 +7,8 @@
 
 namespace bihive {
 
-/// What of these the picture cannot have; the camera must stand already. Fails with kBadUsage on a label that the user
-/// asks for; leaves out one of the scene's or style's, with a warning.
+/// Removes labels that the picture cannot have; the camera must be known. Fails with kBadUsage on a label that the user
+/// asks for; drops one of the scene's or style's with a warning.
 void leave_out_labels(const Overrides& user, const Scene& scene, RenderSettings& settings);
 
 }  // namespace bihive

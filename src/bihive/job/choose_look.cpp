@@ -6,7 +6,7 @@
 namespace bihive {
 namespace {
 
-// A name has neither a folder nor an ending.
+// A style's name has neither a folder nor an ending.
 bool is_path(const std::string& style) {
   return style.find('/') != std::string::npos || style.find('.') != std::string::npos;
 }

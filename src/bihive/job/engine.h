@@ -1,4 +1,4 @@
-// What draws a picture: an engine of the CPU, or the graphics processor.
+// The engine that draws a picture: one of the CPU's, or the GPU.
 #pragma once
 
 #include "bihive/render/tracer.h"
@@ -6,7 +6,7 @@
 
 namespace bihive {
 
-/// The graphics processor draws on the reference tree or on every sphere.
+/// With `gpu` rays traverse the reference tree; with `gpu_brute` they test every sphere.
 enum class RenderEngine { automatic, wide, reference, brute, wide_brute, gpu, gpu_brute };
 
 inline const Names<Engine> kEngines{{"auto", Engine::automatic},

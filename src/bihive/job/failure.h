@@ -1,4 +1,4 @@
-// The end of the program when it cannot do its task. Inside the program (never in the library) that is an exception.
+// Ends the program when it cannot do its task: an exception inside programs, never in the rest of the library.
 #pragma once
 
 #include <string>
@@ -21,8 +21,8 @@ enum ExitCode : int {
 struct Failure {
   ExitCode code;
   Error error;
-  std::string shown{};    ///< lines below the error's own, each with its end; usually none
-  std::string setting{};  ///< the id of the setting with whose name the message begins; empty: it does not
+  std::string shown{};    ///< further lines after the error's own, each with its end; usually none
+  std::string setting{};  ///< the id of the setting whose name begins the message; empty: none
 };
 
 [[noreturn]] inline void fail(Error error) {
@@ -41,7 +41,7 @@ struct Failure {
   throw Failure{kEnvironment, std::move(error)};
 }
 
-/// The value; or it ends the program with the result's error.
+/// Returns the value, or ends the program with the result's error.
 template <class T>
 T value_or_fail(Result<T> result) {
   if (!result) fail(result.error());

@@ -26,7 +26,7 @@ void refuse_generator_options(const InputOptions& options) {
 }
 
 void warn_of_growth(const std::string& path) {
-  warn(path + ": grew while it was read; what it held when it was opened counts");
+  warn(path + ": grew while it was read; only its content at the time of opening is used");
 }
 
 // The size of a file when the object was made; 0 if it states none.

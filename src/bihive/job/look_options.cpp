@@ -106,7 +106,7 @@ void LookOptions::hide_word(const std::string& option, const std::string& word) 
   rows.push_back({word, "hide", ""});
   words.push_back(option);
   if (!has_current_) return;
-  // Later actions are for the selection from before, but come after this one.
+  // Later actions apply to the previous selection, but come after this one.
   looks.push_back({looks[current_].select, {}});
   of_look.push_back(of_look[current_]);
   current_ = looks.size() - 1;
@@ -152,7 +152,7 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
 }
 
 std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOptions& options) {
-  // The meanings of the looks' colours stand behind that of the style.
+  // The meanings of the looks' colours follow that of the style.
   const std::vector<ColourBy>& meanings = input.scene.coloured_by;
   const std::size_t count = std::min(meanings.size(), colourings_of(input.looks) + colourings_of(options.looks));
   std::vector<ColourRange> ranges;

@@ -1,4 +1,4 @@
-// The options of `bihive render` that change how selected spheres look, in the order of the command line.
+// The options of `bihive render` that change the appearance of selected spheres, in the order of the command line.
 #pragma once
 
 #include <optional>
@@ -13,19 +13,19 @@
 
 namespace bihive {
 
-/// Each function takes the value of one option when the command line reaches it. An action before any --select is for
-/// all spheres. An error says what was expected.
+/// Each function takes the value of one option, in the order of the command line. An action before any --select applies
+/// to all spheres. An error states what was expected.
 struct LookOptions {
   std::vector<Look> looks;
-  std::vector<std::string> of_look;                  ///< for messages: the id of the option that begins each look
+  std::vector<std::string> of_look;                  ///< for messages: the id of the option that starts each look
   std::vector<std::vector<std::string>> of_actions;  ///< and those of its actions
-  std::vector<std::string> words;                    ///< the options as they were given, one each
-  std::vector<LookRow> rows;                         ///< the same for the window: an action each, as text
+  std::vector<std::string> words;                    ///< the options as given, one string each
+  std::vector<LookRow> rows;                         ///< the same for the window: one action each, as text
   std::string nan_colour;                            ///< empty: the default
   std::string element_colours;                       ///< "cpk", "jmol" or a file; empty: the usual ones
-  bool selected = false;                             ///< a --select was there
+  bool selected = false;                             ///< --select was given
 
-  /// Fails with kBadUsage on a text that is no selection, and shows the place.
+  /// Fails with kBadUsage on a text that is not a selection, and shows the faulty column.
   void select(const std::string& text);
   void show(bool shown);
   Status set_nan_colour(const std::string& text);
@@ -44,20 +44,20 @@ struct LookOptions {
   std::optional<std::string> without_action_;  // the last selection, until its first action
 };
 
-/// The range of the numbers that colours stand for; unset: not said, or there is none.
+/// The range of the numbers that the colours represent; unset: not stated, or none.
 using ColourRange = std::optional<std::pair<double, double>>;
 
-/// Gives elements their colours, does the input's own looks, then these. Fails with kBadInput on a file of colours that
+/// Sets element colours, applies the input's own looks, then these. Fails with kBadInput on a file of colours that
 /// cannot be read. Fails with kBadUsage on a selection or action that does not fit the input.
 /// Warns of a --select without spheres. `ranges`: for each action that colours by an attribute, in their order, those
 /// of the input first; they replace ranges that the action leaves open.
 void look(LoadedScene& input, const LookOptions& options, const std::vector<ColourRange>& ranges = {});
 
-/// The ranges by which look() has coloured the input, for its last argument; nothing where colours stand for
-/// categories. And that of the style with which the input was loaded.
+/// The ranges by which look() has coloured the input, for its last argument; nothing if colours mean categories. And
+/// that of the style with which the input was loaded.
 std::vector<ColourRange> ranges_of_looks(const LoadedScene& input, const LookOptions& options);
 ColourRange range_of_style(const LoadedScene& input, const LookOptions& options);
-/// A range that is kept for other pictures needs an extent: a single number gets the middle of the colours.
+/// A range that is kept for other pictures needs an extent: a single number gets the middle of the map.
 void give_extent(ColourRange& range);
 /// The style with this range, if it colours by an attribute and leaves the range open.
 void fix_range(Style& style, const ColourRange& range);

@@ -26,10 +26,10 @@ constexpr double kFirstLineMs = 5000, kNextLineMs = 10000;
 constexpr int kBarCharacters = 24;
 
 std::atomic<bool> g_once{false};
-bool g_in_lines = false;  // progress, where there is no terminal
+bool g_in_lines = false;  // progress without a terminal
 thread_local std::vector<std::string>* t_collected = nullptr;
 
-// All that the program says goes this way, for file names and other texts of users may hold anything.
+// All messages of the program go through this, because file names and other texts of users may contain anything.
 void put(std::FILE* stream, const std::string& text) {
   const std::string safe = escaped_lines(text);
   std::fwrite(safe.data(), 1, safe.size(), stream);
@@ -65,7 +65,7 @@ void warn(const std::string& text) {
     static std::unordered_set<std::size_t> said;  // hashes: a film may have a warning for each frame
     const std::lock_guard<std::mutex> lock(mutex);
     if (!said.insert(std::hash<std::string>()(text)).second) return;
-    // A progress line of another thread may stand there.
+    // There may be a progress line of another thread.
     if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
   }
   say("warning: " + text);

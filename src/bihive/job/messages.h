@@ -1,4 +1,4 @@
-// The program's messages on stderr, and results on stdout. Every text is safe for a terminal, whatever it holds
+// The program's messages on stderr, and results on stdout. Every text is safe for a terminal, whatever it contains
 // (base/readable.h: escaped_lines()).
 #pragma once
 
@@ -13,11 +13,11 @@ namespace bihive {
 /// "bihive: warning: ..." in one line.
 void warn(const std::string& text);
 void warn(const std::vector<std::string>& texts);
-/// From now on a warning whose text was said before is dropped: for commands that read many frames. Then any number of
-/// threads may warn.
+/// Drops warnings whose text was printed before: for commands that read many frames. Then any number of threads may
+/// warn.
 void warn_of_each_text_once();
-/// During the life of such an object this thread's warnings go into the list, and not to stderr: for callers that show
-/// them in their own way.
+/// While it exists, this thread's warnings go into the list instead of stderr: for callers that show them in their own
+/// way.
 class CollectedWarnings {
  public:
   explicit CollectedWarnings(std::vector<std::string>& texts);
@@ -28,8 +28,8 @@ class CollectedWarnings {
 /// "bihive: error: ..." in one line.
 void say_error(const std::string& text);
 
-/// From now on messages name settings as options: "--radius-scale" (base/setting_name.h). If the environment has
-/// BIHIVE_SETTING_NAMES=ids, they keep their ids: for packages that start this program and show its messages.
+/// Makes messages name settings as options: "--radius-scale" (base/setting_name.h). If the environment has
+/// BIHIVE_SETTING_NAMES=ids, they keep their ids: for packages that run this program and show its messages.
 void name_settings_as_options();
 
 /// Lines on stderr, each with its end.
@@ -43,8 +43,7 @@ void finish_output();
 /// 1234.5 as "1.23 s", 12.34 as "12.3 ms".
 std::string readable_ms(double ms);
 
-/// From now on Progress writes lines, seconds apart, where there is no terminal: for a program whose output mpirun
-/// takes.
+/// Makes Progress write lines, seconds apart, without a terminal: for a program whose output mpirun captures.
 void show_progress_in_lines();
 
 /// A line with the finished share and the remaining time. It is rewritten in place, on a terminal only, and only if the
@@ -56,7 +55,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Names the present work from now on.
+  /// Sets the name of the current work.
   void rename(const std::string& what) { what_ = escaped(what); }
   /// `done`: 0 to 1.
   void update(double done);

@@ -47,7 +47,7 @@ auto choice(const Names<T>& names) {
   return [&names](const std::string& text) { return choice_from(text, names); };
 }
 
-// A row of what a request has, as one of the request.
+// A row for a member of a request, as a row for the request.
 template <class Part>
 Row of_part(const RequestOption<Part>& row, Part PictureRequest::*part) {
   return {
@@ -70,7 +70,7 @@ std::string with_usual(const Parameter& parameter) {
   return help;
 }
 
-// "light_points" of the parameter with that id, and "no_..." where there is one.
+// "light_points" for the parameter with that id, and "no_..." if there is one.
 void add_parameter(Rows& rows, const Parameter& parameter, OptionTheme theme) {
   const std::string id = setting_of_option(option_of(parameter));
   Row row{.id = id,
@@ -131,7 +131,7 @@ void add_picture(Rows& rows) {
         }},
        {.id = "crop",
         .value_name = "X0,Y0,X1,Y1",
-        .help = "Draw only these pixels of it, from the top left corner; X1, Y1 are the\nfirst ones that are left out",
+        .help = "Draw only this rectangle of its pixels, counted from the top left corner;\nX1, Y1 are exclusive",
         .ranks = kChunks,
         .in_window = false,
         .take = into(&PictureRequest::crop, crop_from)},
@@ -161,7 +161,7 @@ void add_picture(Rows& rows) {
                             .take = into(&PictureRequest::bits, bits_from)},
                            {.id = "dpi",
                             .value_name = "N",
-                            .help = "Pixels an inch in print, as a note in the picture",
+                            .help = "Pixels per inch in print, as a note in the file",
                             .ranks = kChunks,
                             .in_window = false,
                             .take = into(&PictureRequest::dots_per_inch, [](const std::string& text) {
@@ -173,7 +173,7 @@ void add_style(Rows& rows) {
   constexpr OptionTheme kTheme = OptionTheme::style;
   rows.insert(rows.end(), {{.id = "style",
                             .value_name = "NAME|FILE",
-                            .help = "The look: see bihive styles (files: default)",
+                            .help = "The style: see bihive styles (files: default)",
                             .theme = kTheme,
                             .ranks = kChunks,
                             .take = [](PictureRequest& request, const std::string& text) -> Status {
@@ -222,7 +222,7 @@ void add_camera(Rows& rows) {
         .take = into(&PictureRequest::look_at, vector_from)},
        {.id = "up",
         .value_name = "X,Y,Z",
-        .help = "What is up in the picture",
+        .help = "The direction that is up in the picture",
         .theme = kTheme,
         .ranks = kChunks,
         .in_window = false,
@@ -242,15 +242,15 @@ void add_camera(Rows& rows) {
         .take = into(&PictureRequest::projection, choice(kProjections))},
        {.id = "turn",
         .value_name = "AZ,EL[,ROLL]",
-        .help = "Degrees: the camera goes AZ to the right and EL up around what it\n"
-                "looks at; the picture turns ROLL counter-clockwise",
+        .help = "Degrees: the camera moves AZ to the right and EL up around its target;\n"
+                "the picture turns ROLL counter-clockwise",
         .theme = kTheme,
         .ranks = kChunks,
         .in_window = false,
         .take = into(&PictureRequest::turn, turn_from)},
        {.id = "zoom",
         .value_name = "F",
-        .help = "Draw everything F times as large (1)",
+        .help = "Magnify everything F times (1)",
         .theme = kTheme,
         .ranks = kChunks,
         .in_window = false,
@@ -266,19 +266,20 @@ void add_camera(Rows& rows) {
        {.id = "focus",
         .value_name = "D|auto|EXPR",
         .help = "With an aperture: the distance that is sharp, in world units, or the spheres that are,\n"
-                "such as 'resname LIG' or 'index 12' (auto: where the camera looks at)",
+                "such as 'resname LIG' or 'index 12' (auto: the camera's target)",
         .theme = kTheme,
         .ranks = kChunks,
         .take = into(&PictureRequest::focus, focus_from)}});
 }
 
 void add_engine(Rows& rows) {
-  rows.push_back({.id = "engine",
-                  .value_name = list_of(kRenderEngines),
-                  .help = "What draws (auto): on the CPU all give the same bits, a graphics processor nearly the same",
-                  .theme = OptionTheme::engine,
-                  .ranks = kChunks,
-                  .take = into(&PictureRequest::engine, choice(kRenderEngines))});
+  rows.push_back(
+      {.id = "engine",
+       .value_name = list_of(kRenderEngines),
+       .help = "The engine (auto): those of the CPU give the same bits, a graphics processor nearly the same",
+       .theme = OptionTheme::engine,
+       .ranks = kChunks,
+       .take = into(&PictureRequest::engine, choice(kRenderEngines))});
   for (const RequestOption<TreeParameters>& row : tree_options()) rows.push_back(of_part(row, &PictureRequest::tree));
   rows.push_back({.id = "threads",
                   .value_name = "N",
@@ -290,7 +291,7 @@ void add_engine(Rows& rows) {
                                [](const std::string& text) { return whole_number_from_text(text, 0, kMostThreads); })});
 }
 
-// An action on the spheres of the last `select`, or on all. `of_all`: what the option means before any.
+// An action on the spheres of the last `select`, or on all. `of_all`: the option's meaning before any `select`.
 Row action(const std::string& id, const std::string& value_name, const std::string& help, Take of_all = {}) {
   return {.id = id,
           .value_name = value_name,
@@ -334,7 +335,7 @@ void add_spheres(Rows& rows) {
     return Done{};
   };
   Row select =
-      action("select", "EXPR", "The options below are for these spheres alone (docs/selections.md); repeatable");
+      action("select", "EXPR", "The options after it apply to these spheres alone (docs/selections.md); repeatable");
   select.take = [](PictureRequest& request, const std::string& text) -> Status {
     return request.looks.select(text), Done{};
   };
@@ -361,7 +362,7 @@ void add_spheres(Rows& rows) {
               outline_all),
        action("crease", "ATTR", "Lines between those that touch and differ in it, such as chain"),
        action("clip", "plane:NX,NY,NZ,D|box:X0,Y0,Z0,X1,Y1,Z1|sphere:X,Y,Z,R",
-              "Cut them open: n.x > D, the box or the sphere is taken away; repeatable"),
+              "Cut them open: n.x > D, the box or the sphere is removed; repeatable"),
        {.id = "element_colours",
         .value_name = "soft|jmol|cpk|FILE",
         .help = "Colours of elements: a name, or a file with lines 'C #909090' (the style's)",
@@ -374,7 +375,7 @@ void add_spheres(Rows& rows) {
        action_switch("no_hydrogens", "Hide hydrogen",
                      [](LookOptions& looks) { looks.hide_word("--no-hydrogens", "hydrogen"); }),
        action_switch("no_water", "Hide water", [](LookOptions& looks) { looks.hide_word("--no-water", "water"); })});
-  // Both are also of all spheres, which ranks then know without their ids.
+  // Both also apply to all spheres, which ranks then know without their ids.
   for (Row& row : rows)
     if (row.id == "outline" || (row.id == "radius_scale" && reading_setting("radius_scale")->with_chunks))
       row.ranks = kChunks;
@@ -423,7 +424,7 @@ const std::vector<RequestOption<InputOptions>>& input_options() {
     std::vector<RequestOption<InputOptions>> rows{
         {.id = "count",
          .value_name = "N",
-         .help = "Scenarios: how many spheres (4096)",
+         .help = "Scenarios: number of spheres (4096)",
          .theme = OptionTheme::reading,
          .ranks = kWhole,
          .take = into<InputOptions, InputOptions>(
@@ -456,13 +457,13 @@ const std::vector<RequestOption<TreeParameters>>& tree_options() {
   static const std::vector<RequestOption<TreeParameters>> kRows{
       {.id = "max_prims",
        .value_name = "N|unlimited",
-       .help = "Most spheres of a leaf (the engine's choice; reference: 8)",
+       .help = "Maximum spheres per leaf (the engine's choice; reference: 8)",
        .theme = OptionTheme::engine,
        .ranks = kChunks,
        .take = into<TreeParameters, TreeParameters>(&TreeParameters::max_prims, limit_from)},
       {.id = "max_depth",
        .value_name = "N|unlimited",
-       .help = "Most levels of the tree (the engine's choice; reference: unlimited)",
+       .help = "Maximum levels of the tree (the engine's choice; reference: unlimited)",
        .theme = OptionTheme::engine,
        .ranks = kChunks,
        .take = into<TreeParameters, TreeParameters>(&TreeParameters::max_depth, limit_from)}};

@@ -1,7 +1,7 @@
 // The table of all options of a picture. Rows of parameters (settings/parameter.h) and of reading
-// (io/reading_settings.h) are among them; those of camera, appearance of spheres, lights and engine stand here alone.
+// (io/reading_settings.h) are among them; those of camera, appearance of spheres, lights and engine are only here.
 //
-// To add one: a row in picture_options.cpp, a member of PictureRequest, and the code that obeys it.
+// To add one: a row in picture_options.cpp, a member of PictureRequest, and the code that uses it.
 #pragma once
 
 #include <string>
@@ -19,20 +19,20 @@ const std::vector<RequestOption<InputOptions>>& input_options();
 /// `max_prims` and `max_depth`.
 const std::vector<RequestOption<TreeParameters>>& tree_options();
 
-/// The table, for what is generated from it in other languages.
+/// The table, for code generated from it in other languages.
 std::string picture_options_to_json();
 
-/// The samples of a pixel, at most `most`.
+/// The samples per pixel, at most `most`.
 RequestOption<PictureRequest> samples_option(std::int64_t most);
 
 /// The row of an id; null: none.
 const RequestOption<PictureRequest>* picture_option(std::string_view id);
 
-/// Takes one setting by its id. Fails with kBadUsage on an unknown id, a value out of range, an option given twice, or
+/// Sets one setting by its id. Fails with kBadUsage on an unknown id, a value out of range, an option given twice, or
 /// one that another excludes.
 void take_setting(PictureRequest& request, const std::string& id, const std::string& value);
-/// The same for the words of a command line, "--light-points=4", "--light-points" "4" or "--ao", in their order. What
-/// comes after "--" is the input.
+/// The same for the arguments of a command line, "--light-points=4", "--light-points" "4" or "--ao", in their order.
+/// The argument after "--" is the input.
 void take_words(PictureRequest& request, const std::vector<std::string>& words);
 
 }  // namespace bihive

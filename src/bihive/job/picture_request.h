@@ -1,5 +1,5 @@
-// A request for a picture: its input and all that a user has set, before any file is read. Command line, window, Python
-// and C fill it by the table of options (job/picture_options.h); job/prepare_picture.h makes a scene of it.
+// A request for a picture: its input and everything that a user has set, before any file is read. Command line, window,
+// Python and C fill it by the table of options (job/picture_options.h); job/prepare_picture.h makes a scene of it.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace bihive {
 struct StyleOptions {
   std::string name;                        ///< a name or a path; empty: the default one
   LightChoice lights;                      ///< empty: the style's
-  std::vector<std::string> light_words{};  ///< the same as they were given
+  std::vector<std::string> light_words{};  ///< the same, as given
 };
 
 /// Options of labels that are not parameters of a picture.
@@ -34,22 +34,22 @@ struct LabelOptions {
   std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
 };
 
-/// The things that stay the same in all pictures of a film.
+/// Values fixed for all pictures of a film.
 struct FixedByFilm {
   Camera camera;  ///< of this picture
   ColourRange range_of_style;
   std::vector<ColourRange> ranges_of_looks;
 };
 
-/// The word of `background` for a transparent picture.
+/// The value of `background` for a transparent picture.
 inline const std::string kNoBackground = "none";
 
 /// Unset: the scene's value.
 struct PictureRequest {
   InputOptions input;
   LookOptions looks;
-  Overrides picture;         ///< of the parameters in settings/parameter.h
-  std::optional<Tile> crop;  ///< not yet compared with the size
+  Overrides picture;         ///< parameters of settings/parameter.h
+  std::optional<Tile> crop;  ///< not yet checked against the size
   View view = View::shaded;
   RenderEngine engine = RenderEngine::automatic;
   TreeParameters tree;
@@ -58,7 +58,7 @@ struct PictureRequest {
   LabelOptions labels;
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
   std::optional<std::int64_t> bits;       ///< 8 or 16
-  double dots_per_inch = 0;               ///< 0: not said
+  double dots_per_inch = 0;               ///< 0: not stated
   std::optional<Vec3d> eye, look_at, up;
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;
@@ -66,9 +66,9 @@ struct PictureRequest {
   std::optional<Turn> turn;
   std::optional<double> zoom;      ///< above 0
   std::optional<double> aperture;  ///< world units, at least 0
-  std::optional<Focus> focus;      ///< world units, 0: where the camera looks at; or what is sharp
+  std::optional<Focus> focus;      ///< world units, 0: the camera's target; or the spheres in focus
   std::optional<FixedByFilm> fixed;
-  std::vector<std::string> given;  ///< the ids of all options that were given: "light_points"
+  std::vector<std::string> given;  ///< the ids of all options given: "light_points"
 };
 
 }  // namespace bihive

@@ -47,8 +47,8 @@ std::string filled_title(const std::string& title, const PictureRequest& request
   return *filled;
 }
 
-// Applies the user's options to the scene: transfer curve, background, camera, light. The scene's own settings with the
-// user's options are the result.
+// Applies the user's options to the scene: transfer curve, background, camera, light. Returns the scene's own settings
+// with the user's options.
 RenderSettings apply_options(const PictureRequest& request, Input& input, const WholeSet* whole) {
   Scene& scene = input.scene;
   const Overrides& user = request.picture;
@@ -62,7 +62,7 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   settings.crop = request.crop;
   if (request.crop && (request.crop->x1 > settings.width_px || request.crop->y1 > settings.height_px))
     fail_setting("crop",
-                 fmt::format(" ends outside of the picture of {} x {} pixels", settings.width_px, settings.height_px),
+                 fmt::format(" ends outside the picture of {} x {} pixels", settings.width_px, settings.height_px),
                  "give the size of the whole picture by " + setting_name("size"));
   if (user.has("length_unit") && !settings.labels.scale_bar)
     fail_setting("length_unit", " is for the scale bar, and the picture has none",
@@ -89,7 +89,7 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   return settings;
 }
 
-// Refuses what the graphics processor cannot draw.
+// Refuses what the GPU cannot draw.
 void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings& settings) {
   const auto refuse = [engine](const std::string& what, const std::string& without) {
     fail_setting("engine", " " + name_of(kRenderEngines, engine) + " draws no " + what,
@@ -140,7 +140,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   return settings;
 }
 
-// A pixel of a file's band: display values, and the bytes of the file, 8 bits of each colour.
+// Bytes per pixel of a file's band: display values, and the bytes of the file, 8 bits per colour.
 constexpr double kFileBytes = 2 * 3;
 
 bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
@@ -194,7 +194,7 @@ ordered_json settings_json(const PictureRequest& request, const RenderSettings& 
   json["spheres"] = scene.spheres.size();
   for (const ReadingSetting& row : reading_settings()) {
     const std::string key(row.report.empty() ? row.id : row.report);
-    // Scene files replicate too.
+    // Scene files may replicate too.
     if (row.id == "replicate" && scene.spheres.has_images())
       json[key] = scene.spheres.images().counts;
     else if (row.id != "replicate" && input.reading.has(row.id))

@@ -1,4 +1,4 @@
-// From the options of a picture to what is drawn: shared by `bihive render` and `bihive film`.
+// Prepares a picture from its options: shared by `bihive render` and `bihive film`.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,10 +17,10 @@ namespace bihive {
 /// Fails with kBadUsage if the engine cannot draw the view.
 RenderEngine choose_engine(const PictureRequest& request);
 
-/// Does the looks on an input that load_input() has loaded with LooksOfFile::keep, and applies the user's options to
-/// its scene: transfer curve, background, camera, light. The scene's own settings with the user's options are the
-/// result; request.fixed replaces the camera and the ranges of colours. Fails where options contradict each other or do
-/// not fit the input. `whole`: null if the input has all spheres.
+/// Applies the looks to an input that load_input() has loaded with LooksOfFile::keep, and the user's options to its
+/// scene: transfer curve, background, camera, light. Returns the scene's own settings with the user's options;
+/// request.fixed replaces the camera and the ranges of colours. Fails if options contradict each other or do not fit
+/// the input. `whole`: null if the input has all spheres.
 RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engine, Input& input,
                                const WholeSet* whole = nullptr);
 
@@ -28,14 +28,14 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
 void check_memory_of(RenderEngine engine, const Input& input, const PictureRequest& request,
                      const RenderSettings& settings);
 
-/// The views distance and tree, and pictures of graphics processors, are drawn whole.
+/// Whether the picture must be drawn whole: the views distance and tree, and pictures of the GPU.
 bool comes_whole(RenderEngine engine, const RenderSettings& settings);
 
-/// Everything that decides the picture, for its text chunk. Threads and engine do not.
+/// Everything that determines the picture, for its text chunk; threads and engine do not.
 nlohmann::ordered_json settings_json(const PictureRequest& request, const RenderSettings& settings, const Scene& scene,
                                      const std::vector<Layer>& layers);
 
-/// The texts in the file about its picture.
+/// The text chunks of the file.
 std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const nlohmann::ordered_json& settings);
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// Pictures by the graphics processor, without a window.
+// Pictures by the GPU, without a window.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace bihive {
 struct GpuPicture {
   Film film;
   std::int64_t primary = 0, others = 0;  ///< rays traced
-  double render_ms = 0;                  ///< of the picture, without the context and the upload
+  double render_ms = 0;                  ///< of the picture, excluding context and upload
   std::string gpu;                       ///< vendor, processor, version
 };
 

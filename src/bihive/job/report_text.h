@@ -1,4 +1,4 @@
-// JSON as every report of the program is written.
+// JSON in the format of every report of the program.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@ namespace bihive {
 /// ASCII, broken UTF-8 replaced. An indent below 0 makes one line.
 std::string as_text(const nlohmann::ordered_json& json, int indent);
 
-/// UTF-8 as PNG's plain text, which knows Latin-1 only; other letters become question marks.
+/// Converts UTF-8 to PNG's plain text, which is Latin-1; other letters become question marks.
 std::string latin1(const std::string& text);
 
 }  // namespace bihive

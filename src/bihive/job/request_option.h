@@ -1,5 +1,5 @@
 // A setting that a user gives as text: one row, from which the options of the command line with their help, the
-// keywords of Python and the names of C are made.
+// keywords of Python and the names of C are generated.
 #pragma once
 
 #include <functional>
@@ -18,12 +18,12 @@ enum class OptionTheme { picture, style, camera, engine, reading, spheres, label
 template <class Request>
 struct RequestOption {
   std::string id = "";          ///< "view_from"
-  std::string value_name = "";  ///< of its value in help; empty: a switch
+  std::string value_name = "";  ///< name of its value in help; empty: a switch
   std::string help = "";        ///< a sentence without a full stop; may have several lines
   OptionTheme theme = OptionTheme::picture;
   ParameterRanks ranks = ParameterRanks::refused;
   bool in_window = true;
-  bool repeatable = false;                 ///< in order with the other options that are
+  bool repeatable = false;                 ///< kept in order with other repeatable options
   std::vector<std::string> excludes = {};  ///< ids of others
   /// The text of a switch is empty. Error: the expected and the found text.
   std::function<Status(Request&, const std::string&)> take = {};

@@ -1,4 +1,4 @@
-// A selection on the command line: its spheres, or a failure that shows the wrong place.
+// A selection on the command line: its spheres, or a failure that shows the faulty column.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace bihive {
 
-/// Fails with kBadUsage: the message, then the expression with a caret below the place. `setting`: the id of the option
-/// or argument.
+/// Fails with kBadUsage: the message, then the expression with a caret below the faulty column. `setting`: the id of
+/// the option or argument.
 [[noreturn]] void fail_selection(const std::string& setting, const std::string& expression, const Error& error);
 
 /// The expression's mask over the spheres; fails as above.

@@ -18,7 +18,7 @@ Error unexpected(const std::string& expected, const std::string& found) {
   return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
 }
 
-// A number that is the whole text.
+// Parses a number; the whole text must be it.
 template <class T>
 std::optional<T> whole(std::string_view text) {
   T value{};
@@ -27,7 +27,7 @@ std::optional<T> whole(std::string_view text) {
   return value;
 }
 
-// Numbers with commas between them; empty if one is not of the type T.
+// Parses numbers separated by commas; empty if one is not a T.
 template <class T>
 std::vector<T> numbers_of(std::string_view text) {
   std::vector<T> numbers;
@@ -42,7 +42,7 @@ std::vector<T> numbers_of(std::string_view text) {
   return numbers;
 }
 
-// Three finite numbers with commas between them.
+// Parses three finite numbers separated by commas.
 std::optional<Vec3d> three_numbers(std::string_view text) {
   const std::vector<double> numbers = numbers_of<double>(text);
   if (numbers.size() != 3) return std::nullopt;

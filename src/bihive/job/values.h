@@ -1,4 +1,4 @@
-// From the text of an option to its value. An error says the expected and the found text.
+// Parses the values of options. An error states the expected and the found text.
 #pragma once
 
 #include <cstdint>

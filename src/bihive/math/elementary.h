@@ -1,5 +1,5 @@
 // Powers and functions of angless made of + - x / on binary64 alone, so that a picture has the same bits on every
-// platform. The system's mathematics library is not used: its last bits differ between machines.
+// platform. The system's math library is not used: its last bits differ between machines.
 #pragma once
 
 namespace bihive {

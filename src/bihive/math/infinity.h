@@ -1,4 +1,4 @@
-// The bound of what has none, in binary32.
+// Stands for a missing bound, in binary32.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// The part of a ray inside a node, as parameters of the ray. Never mixed with the ray's own segment t_min, t_max.
+// The interval of a ray inside a node, as parameters of the ray. Never mixed with the ray's own segment t_min, t_max.
 #pragma once
 
 namespace bihive {

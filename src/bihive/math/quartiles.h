@@ -1,4 +1,4 @@
-// The middle of measured values, and how far they spread.
+// The median and the quartiles of measured values.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// splitmix64: the project's one generator of random numbers, the same on every compiler [Steele2014].
+// splitmix64: the project's only random number generator, the same on every compiler [Steele2014].
 #pragma once
 
 #include <cstdint>

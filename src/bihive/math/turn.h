@@ -1,4 +1,5 @@
-// Turns about an axis, made of square roots and products alone, so that they have the same bits on every platform.
+// Rotations about an axis, computed with square roots and products alone, so that they have the same bits on every
+// platform.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Three numbers along x, y, z. Every operation is a fixed sequence of + - x / sqrt, so results are the same everywhere.
+// Three numbers along x, y, z. Every operation is a fixed sequence of + - x / sqrt, so results are the same on every
+// platform.
 #pragma once
 
 #include <cmath>

@@ -9,7 +9,7 @@
 namespace bihive {
 
 // A spiral from pole to pole: equal steps along the axis are equal areas, and each step turns by the golden angle. The
-// sets lie between each other: set i starts a part of a step lower and is turned as the sample places are.
+// sets are interleaved: set i starts a fraction of a step lower and is rotated as the sample positions are.
 DirectionSets::DirectionSets(int directions, int samples_per_pixel) {
   const double golden = (3 - std::sqrt(5.0)) / 2;  // of a whole turn
   const Rotation step = turn_by(golden);

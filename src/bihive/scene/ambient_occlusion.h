@@ -1,7 +1,7 @@
-// Ambient occlusion: the share of its surroundings that a place on a surface sees. It scales the ambient term.
+// Ambient occlusion: the visible fraction of the surroundings of a shading point. It scales the ambient term.
 //
-// The directions are the same for all places, so neighbouring pixels ask along parallel rays and the picture has no
-// noise. The samples of a pixel take different sets of directions, so that together they see more of them.
+// The directions are the same for all shading points, so neighbouring pixels trace parallel rays and the picture has no
+// noise. The samples of a pixel use different sets of directions, so that together they cover more of them.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace bihive {
 
-/// Samples beyond this many take the sets of the first ones again.
+/// Samples beyond this many reuse the first sets.
 constexpr int kMostDirectionSets = 16;
 
 /// The sets of directions of a picture: sample i of every pixel takes set i % count().
@@ -33,7 +33,7 @@ class DirectionSets {
   std::vector<std::vector<Vec3f>> sets_;  // level after level
 };
 
-/// The rays that places ask with: what a renderer needs to know, made once for each picture.
+/// Ambient occlusion rays of a picture, prepared once for a renderer.
 struct AmbientRays {
   double distance;
   DirectionSets sets;

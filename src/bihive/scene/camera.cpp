@@ -9,8 +9,8 @@
 namespace bihive {
 namespace {
 
-// The world's length of one pixel: of parallel rays, or on the plane at distance 1. The shorter side of the picture
-// spans the camera's angle or length.
+// The length of one pixel in the world: for parallel rays, or on the plane at distance 1. The shorter side of the
+// picture spans the camera's angle or length.
 double pixel_of(const Camera& camera, int width_px, int height_px) {
   const bool parallel = camera.projection == Projection::orthographic;
   const double shorter_side = parallel ? camera.shorter_side : 2 * tan_deg(camera.fov_deg / 2);

@@ -8,8 +8,7 @@
 namespace bihive {
 
 /// perspective: all rays start at the eye. orthographic: all rays are parallel, and start on the plane through the eye
-/// at right angles to the view; equal spheres look equally large at any distance. What is behind that plane is not
-/// seen.
+/// at right angles to the view; equal spheres look equally large at any distance. Nothing behind that plane is visible.
 enum class Projection { perspective, orthographic };
 
 /// World units.
@@ -21,7 +20,7 @@ struct Camera {
   Projection projection = Projection::perspective;
   double shorter_side = 50;  ///< orthographic: the length in the world along the picture's shorter side, above 0
   double aperture = 0;       ///< the radius of a thin lens, at least 0; 0 shows everything sharply. Perspective alone.
-  double focus = 0;          ///< with an aperture: so far along the view all is sharp; 0: where look_at is
+  double focus = 0;          ///< with an aperture: distance of sharp focus along the view; 0: at look_at
 };
 
 inline bool operator==(const Camera& a, const Camera& b) {
@@ -34,7 +33,7 @@ inline bool operator==(const Camera& a, const Camera& b) {
 /// shorter side, the aperture or the focus is out of range, or an orthographic camera has an aperture.
 Status check_camera(const Camera& camera);
 
-/// The same camera with this projection. What is as far away as look_at keeps its size in the picture.
+/// The same camera with this projection. Objects at the distance of look_at keep their size in the picture.
 Camera with_projection(const Camera& camera, Projection projection);
 
 /// The same camera with a picture `factor` times as large, above 0: it changes the angle or the shorter side. The eye
@@ -44,7 +43,7 @@ Camera enlarged(const Camera& camera, double factor);
 /// The distance along the view that is sharp.
 double focus_distance(const Camera& camera);
 
-/// A place on the lens, in units of its radius: at most 1 from the middle; to the right and down, as the camera sees
+/// A point of the lens, in units of its radius: at most 1 from the middle; to the right and down, as the camera sees
 /// it.
 struct LensPlace {
   double x = 0, y = 0;
@@ -57,17 +56,17 @@ class PixelRays {
   PixelRays(const Camera& camera, int width_px, int height_px);
 
   /// The ray through picture position (x, y) in pixels: (0, 0) is the top left corner, (0.5, 0.5) the first pixel's
-  /// centre. Its direction has length 1 up to binary32 rounding. Of parallel rays, all directions have the same bits,
-  /// and each origin is rounded once.
+  /// centre. Its direction has length 1 up to binary32 rounding. Parallel rays: all directions have the same bits, and
+  /// each origin is rounded once.
   Ray at(double x_px, double y_px) const;
 
-  /// The ray through a place of the lens that meets the ray above in the plane of focus. Its origin is rounded once.
+  /// The ray through a point of the lens that meets the ray above in the plane of focus. Its origin is rounded once.
   /// Without a lens it is the ray above.
   Ray at(double x_px, double y_px, LensPlace place) const;
 
   /// The vectors of at(), for code that makes many rays at once. Let step be (x - half_width) right + (y - half_height)
   /// down. Rays from one eye: the direction through (x, y) is that of forward + step. Parallel rays: the origin is
-  /// centre + step, and the direction is that of forward. Rays through place p of a lens: the origin is centre + p.x
+  /// centre + step, and the direction is that of forward. Rays through point p of a lens: the origin is centre + p.x
   /// lens_right + p.y lens_down, and the direction is that of forward + step - (p.x tilt_right + p.y tilt_down).
   bool parallel() const { return parallel_; }
   bool has_lens() const { return has_lens_; }
@@ -93,7 +92,7 @@ class PixelRays {
   double half_width_, half_height_;
 };
 
-/// The inverse: the places of the world's points in a picture of width x height pixels.
+/// The inverse: the picture positions of points of the world, for width x height pixels.
 class PixelPlaces {
  public:
   /// The camera must pass check_camera().

@@ -6,7 +6,7 @@
 namespace bihive {
 namespace {
 
-// Camera lights are so many times as far from what the camera looks at as the camera is.
+// Distance of camera lights from look_at, in distances of the camera.
 constexpr double kFarAway = 8;
 
 constexpr Vec3d grey(double strength) {

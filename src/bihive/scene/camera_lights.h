@@ -1,4 +1,4 @@
-// Lights that stand around the camera wherever it looks from.
+// Lights fixed to the camera.
 #pragma once
 
 #include <string_view>
@@ -14,14 +14,14 @@ namespace bihive {
 struct CameraLight {
   Vec3d direction{0, 0, 1};  ///< towards the light: right, up and towards the viewer; any length above 0
   Vec3d colour{1, 1, 1};     ///< linear, each >= 0
-  double angle_deg = 0;      ///< the angle that the light fills, 0 to 90; 0 throws sharp shadows
+  double angle_deg = 0;      ///< angular size of the light, 0 to 90; 0 casts sharp shadows
 };
 
 struct LightRig {
   Vec3d ambient_light{1, 1, 1};  ///< strength of the ambient term
   bool light_behind = true;      ///< the light of light_behind(), before `lights`
   std::vector<CameraLight> lights;
-  std::vector<PointLight> placed;  ///< lights that stand in the world, behind `lights`
+  std::vector<PointLight> placed;  ///< lights fixed in the world, after `lights`
 };
 
 /// thesis: one point light behind the camera. studio: soft key from above left, fill from the right, rim from behind.

@@ -5,7 +5,7 @@
 namespace bihive {
 namespace {
 
-// A number at some pictures of the film.
+// A number at some pictures of the animation.
 struct Knot {
   double picture, value;
 };
@@ -18,12 +18,12 @@ double chord(const std::vector<Knot>& knots, std::size_t i) {
 // at both ends.
 double slope(const std::vector<Knot>& knots, std::size_t i) {
   if (i == 0 || i + 1 == knots.size()) return 0;
-  const double before = chord(knots, i - 1), behind = chord(knots, i);
-  if (!(before * behind > 0)) return 0;
+  const double before = chord(knots, i - 1), after = chord(knots, i);
+  if (!(before * after > 0)) return 0;
   const double width_before = knots[i].picture - knots[i - 1].picture;
-  const double width_behind = knots[i + 1].picture - knots[i].picture;
-  const double weight_before = width_before + 2 * width_behind, weight_behind = 2 * width_before + width_behind;
-  return (weight_before + weight_behind) / (weight_before / before + weight_behind / behind);
+  const double width_after = knots[i + 1].picture - knots[i].picture;
+  const double weight_before = width_before + 2 * width_after, weight_after = 2 * width_before + width_after;
+  return (weight_before + weight_after) / (weight_before / before + weight_after / after);
 }
 
 // The curve through the knots; `otherwise` if there are none.
@@ -58,7 +58,7 @@ Camera camera_at(const CameraPath& path, const Camera& base, std::int64_t pictur
   if (!path.moves()) return base;
   Camera camera = base;
 
-  // Move what the camera looks at.
+  // Move the look-at point.
   Vec3d look_at = base.look_at;
   for (int axis = 0; axis < 3; ++axis)
     look_at[axis] =

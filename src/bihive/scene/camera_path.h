@@ -1,4 +1,4 @@
-// A camera that moves while a film runs: a turntable, or key frames with smooth ways between them.
+// A camera that moves during an animation: a turntable, or key frames with smooth transitions.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@
 
 namespace bihive {
 
-/// The camera at one picture of the film. Unset values come from the keys before and after that state them,
-/// and before the first and behind the last of these from that one alone.
+/// The camera at one picture of the animation. Unset values are interpolated between the keys before and after that
+/// state them, and constant before the first and after the last of these.
 struct CameraKey {
   std::int64_t picture = 0;      ///< from 0
-  std::optional<Turn> turn;      ///< around what it looks at, from the film's camera; may be above 360
-  std::optional<double> zoom;    ///< everything so many times as large; above 0
+  std::optional<Turn> turn;      ///< around look_at, from the animation's camera; may be above 360
+  std::optional<double> zoom;    ///< magnification; above 0
   std::optional<Vec3d> look_at;  ///< the camera moves along with it
 };
 
 struct CameraPath {
-  double turntable_deg = 0;     ///< the camera goes so far to the right around the scene in the whole film
+  double turntable_deg = 0;     ///< rotation of the camera to the right around the scene, over the whole animation
   std::vector<CameraKey> keys;  ///< their pictures rise
 
   bool moves() const { return turntable_deg != 0 || !keys.empty(); }
 };
 
-/// The camera of a picture, 0 to `pictures` - 1, of a film whose camera is `base`. The turntable turns by equal angles,
-/// and picture `pictures` would be at its end, so that a film of 360 degrees goes round without a jolt. Between two
-/// keys each number follows a cubic curve that overshoots neither, and stands still at its first and last key. The same
-/// bits on every platform.
+/// The camera of a picture, 0 to `pictures` - 1, of an animation whose camera is `base`. The turntable turns by equal
+/// angles, and picture `pictures` would be at its end, so that 360 degrees loop seamlessly. Between two keys each
+/// number follows a cubic curve that overshoots neither, and is at rest at its first and last key. The same bits on
+/// every platform.
 Camera camera_at(const CameraPath& path, const Camera& base, std::int64_t picture, std::int64_t pictures);
 
 /// Key frames from JSON: {"keys": [{"picture": 0, "turn": [0, 0, 0], "zoom": 1, "look_at": [0, 0, 0]}, ...]}. Errors
-/// name the place in the document and the expected value.
+/// name the location in the document and the expected value.
 Result<std::vector<CameraKey>> parse_camera_keys(std::string_view json, const std::string& name);
 
 /// The document of parse_camera_keys().

@@ -29,7 +29,7 @@ std::optional<Vec3d> three_numbers(const json& value, double most) {
   return numbers;
 }
 
-// The error of one place of a document.
+// Makes errors about one location of a document.
 class Place {
  public:
   Place(std::string name, std::string pointer) : name_(std::move(name)), pointer_(std::move(pointer)) {}
@@ -90,7 +90,8 @@ Result<std::vector<CameraKey>> parse_camera_keys(std::string_view text, const st
     Result<CameraKey> key = key_from(value, name, pointer);
     if (!key) return key.error();
     if (!keys.empty() && key->picture <= keys.back().picture)
-      return Place(name, pointer + "/picture").expected("a picture behind that of the key before", value.at("picture"));
+      return Place(name, pointer + "/picture")
+          .expected("a picture after that of the previous key", value.at("picture"));
     keys.push_back(*key);
   }
   return keys;

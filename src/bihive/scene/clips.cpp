@@ -27,7 +27,7 @@ bool in_range(Vec3d v) {
   return in_range(v.x) && in_range(v.y) && in_range(v.z);
 }
 
-// As many numbers as fit the array, with commas between them.
+// Parses as many numbers as the array has, separated by commas.
 template <std::size_t kCount>
 Result<std::array<double, kCount>> numbers(std::string_view text, const std::string& form) {
   std::array<double, kCount> values{};

@@ -24,7 +24,7 @@ Result<Clip> clip_from_text(const std::string& text);
 /// order, a radius is not above 0.
 Status check_clip(const Clip& clip);
 
-/// The clip at another place.
+/// The clip, translated.
 Clip moved(const Clip& clip, Vec3d by);
 
 /// Whether a clip acts on some sphere.
@@ -33,12 +33,12 @@ bool has_clips(const Scene& scene);
 /// The cut spheres of the scene, whose set must outlive it; null if the clips neither cut nor remove any.
 std::shared_ptr<const CutSet> cut_set_of(const Scene& scene);
 
-/// The spheres of which something is left: for cameras. Cut ones are there with their full radii.
+/// The spheres that are not removed entirely: for cameras. Cut ones are there with their full radii.
 class RemainingSpheres {
  public:
   /// The scene must outlive it.
   explicit RemainingSpheres(const Scene& scene);
-  /// The scene's own set where clips remove no sphere, so that large sets are not copied; else a part of it, without
+  /// The scene's own set if clips remove no sphere, so that large sets are not copied; else a subset, without
   /// attributes.
   const SphereSet& set() const { return part_ ? *part_ : *whole_; }
 

@@ -1,4 +1,4 @@
-// The colour that a number has after colour_by() (scene/colour_by.h).
+// The colour of a number after colour_by() (scene/colour_by.h).
 #pragma once
 
 #include "bihive/scene/colour_by.h"

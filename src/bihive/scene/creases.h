@@ -11,8 +11,7 @@
 namespace bihive {
 
 /// A number for each sphere, at least 1, that is the same for spheres with the same value of the attribute (a name as
-/// selections know it); 0 where a number is unknown. They are what SphereAttributes::crease holds. Error: the set lacks
-/// the attribute.
+/// selections know it); 0 where a number is unknown. For SphereAttributes::crease. Error: the set lacks the attribute.
 Result<std::vector<std::int32_t>> crease_groups(const SphereSet& spheres, const std::string& attribute);
 
 }  // namespace bihive

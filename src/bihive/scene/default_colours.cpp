@@ -27,7 +27,7 @@ void colour_by_style(const ColourBy& how, Scene& scene) {
   scene.coloured_by = {*done};
 }
 
-// Whether the attribute has several values, and none of them too many spheres.
+// Whether the attribute has several values, none of them with too many spheres.
 bool tells_apart(const SphereSet& spheres, const std::string& attribute) {
   const FoundAttribute found = find_attribute(spheres, attribute);
   if (!found.found()) return false;

@@ -1,4 +1,4 @@
-// The colours and units of spheres from a file, before anybody asks for others.
+// Default colours and units of spheres from a file.
 #pragma once
 
 #include <string_view>

@@ -55,7 +55,7 @@ Result<ElementColours> read_element_colours(std::string_view text, const std::st
     if (number == 0 && lower_case(field) != "x")
       return scanner.field_error("expected an element's symbol, or X, but found " + quote(field),
                                  "a line is a symbol and a colour: C #909090");
-    if (!scanner.next_field(field)) return scanner.line_error("expected a colour behind the symbol", "C #909090");
+    if (!scanner.next_field(field)) return scanner.line_error("expected a colour after the symbol", "C #909090");
     const auto colour = colour_from_text(field, Transfer::srgb);
     if (!colour)
       return scanner.field_error("expected a colour but found " + quote(field),

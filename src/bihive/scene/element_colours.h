@@ -18,9 +18,9 @@ using ElementColours = std::array<std::optional<Vec3f>, 119>;
 /// "soft": those of palette.h. Nothing for any other name.
 std::optional<ElementColours> element_colours_called(std::string_view name);
 
-/// From lines `C #rrggbb`: a symbol in upper or lower case, or X for an unknown element, and a colour or its name as it
-/// appears on the screen with the sRGB curve. Blank lines, and lines that begin with # are skipped. Errors have file,
-/// line and column.
+/// Parses lines `C #rrggbb`: a symbol in upper or lower case, or X for an unknown element, and a colour or its name as
+/// it appears on the screen with the sRGB curve. Blank lines, and lines that begin with # are skipped. Errors have
+/// file, line and column.
 Result<ElementColours> read_element_colours(std::string_view text, const std::string& file);
 
 /// Gives the spheres these colours; a sphere whose colour is none of palette.h for its element keeps it. Error: no

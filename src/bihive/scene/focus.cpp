@@ -18,8 +18,8 @@ Result<double> focus_on(const SphereSet& spheres, const Camera& camera, const st
     sum += dot(centre - camera.eye, forward);
     count += 1;
   });
-  if (count == 0) return Error{"the selection means no sphere", "", 0, 0, "see bihive select"};
-  if (!(sum / count > 0)) return Error{"the selected spheres are not before the camera", "", 0, 0, ""};
+  if (count == 0) return Error{"the selection matches no sphere", "", 0, 0, "see bihive select"};
+  if (!(sum / count > 0)) return Error{"the selected spheres are not in front of the camera", "", 0, 0, ""};
   return sum / count;
 }
 

@@ -1,4 +1,4 @@
-// A lens that is sharp where some spheres are.
+// Focus on selected spheres.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace bihive {
 
 /// The mean distance along the view of the selected spheres' centres: a value for Camera::focus. Errors: the
-/// selection's (select/selection.h), that it means no sphere, or that they are not before the camera.
+/// selection's (select/selection.h), that it matches no sphere, or that they are not in front of the camera.
 Result<double> focus_on(const SphereSet& spheres, const Camera& camera, const std::string& selection);
 
 }  // namespace bihive

@@ -7,7 +7,7 @@
 namespace bihive {
 namespace {
 
-// So many frames no trajectory has, and sums of two such numbers do not overflow.
+// More frames than any trajectory has; sums of two such numbers do not overflow.
 constexpr std::int64_t kMostFrames = std::int64_t{1} << 60;
 
 std::optional<std::int64_t> whole_number(const std::string& text) {
@@ -45,7 +45,7 @@ Result<FrameRange> frame_range_from_text(const std::string& text) {
   range.begin = numbers[0].value_or(0);
   if (colons == 0) {
     if (!numbers[0]) return range_error(text);
-    // The frame behind the last one has no number from the end.
+    // The frame after the last one has no number from the end.
     if (range.begin != -1) range.end = range.begin + 1;
     return range;
   }

@@ -1,4 +1,4 @@
-// The frames of a film: every STEP-th of a part of a trajectory.
+// The frames of an animation: every STEP-th of a range of a trajectory.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace bihive {
 
-/// As the user asks for it. Frames count from 0. A negative `begin` or `end` counts from the trajectory's end.
+/// A range as the user states it. Frames count from 0. A negative `begin` or `end` counts from the trajectory's end.
 struct FrameRange {
   std::int64_t begin = 0;
-  std::optional<std::int64_t> end;  ///< the first frame that is left out; unset: all to the last one
+  std::optional<std::int64_t> end;  ///< the frame after the last one; unset: up to the end
   std::int64_t step = 1;            ///< at least 1
 };
 
-/// "A:B:STEP", "A:B", or one frame "A"; each part of the first two may be empty. An error says what was expected.
+/// "A:B:STEP", "A:B", or one frame "A"; A and B may be empty in the first two. An error states what was expected.
 Result<FrameRange> frame_range_from_text(const std::string& text);
 
 /// A range of a trajectory whose length is known: first, first + step, ...; `count` of them, at least one.
@@ -28,7 +28,7 @@ struct FrameList {
   std::optional<std::int64_t> picture_of(std::int64_t frame) const;
 };
 
-/// An end behind the trajectory's is its end. Error: the range holds no frame of a trajectory of `frames` frames.
+/// An end after the trajectory's is clamped. Error: the range holds no frame of a trajectory of `frames` frames.
 Result<FrameList> frames_in(const FrameRange& range, std::int64_t frames);
 
 }  // namespace bihive

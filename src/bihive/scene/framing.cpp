@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-// Where the free part of one side of the picture begins and ends, from the picture's middle: 1 is half of the side.
+// The free interval of one side of the picture, from the picture's middle: 1 is half of the side.
 struct FreePart {
   double low, high;
 
@@ -25,9 +25,9 @@ FreePart free_part(double low_inset, double high_inset) {
   return {free(low_inset), free(high_inset)};
 }
 
-// The two opposite planes through the eye that bound the free part to the left and right, or below and above, by the
-// tangents of their angles. With the eye at (shift, distance) along (the span's axis, back), a sphere is inside a plane
-// when its centre is at least a radius away from it:
+// The two opposite planes through the eye that bound the free interval to the left and right, or below and above, by
+// the tangents of their angles. With the eye at (shift, distance) along (the span's axis, back), a sphere is inside a
+// plane when its centre is at least a radius away from it:
 //   distance * low - shift >= radius * slope - place + low * depth    and for `high` with -shift and -place.
 class Span {
  public:
@@ -83,7 +83,7 @@ void for_each_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points
   for (const Vec3d point : points) use(point, 0.0);
 }
 
-// Turns a camera that frames the set in perspective, at `distance` from the spheres' middle, into one with parallel
+// Converts a camera that frames the set in perspective, at `distance` from the spheres' middle, into one with parallel
 // rays.
 void frame_parallel(const Framing& framing, const ViewReach& reach, double distance, Camera& camera) {
   const Side& side = framing.side;
@@ -120,7 +120,7 @@ struct Spans {
               free_part(framing.insets.bottom, framing.insets.top)) {}
 
  private:
-  // The tangents of the angles that the free part of the picture spans to either side.
+  // The tangents of the angles that the free interval of the picture spans to either side.
   static double tangent(const Framing& framing) { return tan_deg(framing.lens.fov_deg / 2); }
   static double shorter(const Framing& framing) { return std::min(framing.width_px, framing.height_px); }
 };
@@ -201,7 +201,7 @@ Vec3d middle_of(const SphereSet::Bounds& bounds) {
 
 namespace {
 
-// The camera of frame_spheres(), with these points inside of the picture too.
+// The camera of frame_spheres(), with these points inside the picture too.
 Camera frame(const SphereSet& spheres, const std::vector<Vec3d>& points, const Side& side, const Lens& lens,
              int width_px, int height_px, const Insets& insets) {
   const Framing framing{side, lens, width_px, height_px, insets, middle_of(spheres.bounds())};
@@ -236,7 +236,8 @@ Camera frame_spheres(const SphereSet& spheres, ViewFrom from, double fov_deg, in
 }
 
 PointLight light_behind(const Camera& camera) {
-  // Up and left by shares of the distance. With these shares shading shows shape, and shadows fall to the lower right.
+  // Offsets up and left, as fractions of the distance. With these, shading shows shape, and shadows fall to the lower
+  // right.
   const Vec3d view = camera.look_at - camera.eye;
   const double distance = length(view);
   const Vec3d forward = view / distance;

@@ -1,4 +1,4 @@
-// A camera and a light for a set without its own: the whole set in view, as large as it fits.
+// A camera and a light for a set without its own: the whole set in view, as large as possible.
 #pragma once
 
 #include <limits>
@@ -15,14 +15,14 @@ namespace bihive {
 /// from -z, top from +y (with -z up), bottom from -y (with +z up), iso from (1, 1, 1).
 enum class ViewFrom { front, back, left, right, top, bottom, iso };
 
-/// A direction of view, as two unit vectors at right angles: from look_at towards the eye, and what is up.
+/// A direction of view, as two unit vectors at right angles: from look_at towards the eye, and up.
 struct Side {
   Vec3d back;
   Vec3d up;
 };
 Side side_of(ViewFrom from);
 
-/// How the camera draws what it sees.
+/// The projection and its margins.
 struct Lens {
   double fov_deg = 30;
   Projection projection = Projection::perspective;
@@ -31,8 +31,7 @@ struct Lens {
 /// The margin on each side of the picture, as a share of that side.
 constexpr double kFreeBorder = 0.04;
 
-/// What of the picture stays free besides that border: shares of its width (left, right) and height, each from 0 to
-/// kMostInset.
+/// Further free margins of the picture: shares of its width (left, right) and height, each from 0 to kMostInset.
 struct Insets {
   double left = 0, right = 0, top = 0, bottom = 0;
 
@@ -59,8 +58,8 @@ struct Framing {
 /// The middle of a box; 0 for the bounds of an empty set.
 Vec3d middle_of(const SphereSet::Bounds& bounds);
 
-/// The reach of spheres towards the planes that bound a picture, and towards the eye: all that a camera must know of
-/// them. Where spheres lie in several sets, each number is the greatest of all.
+/// The extent of spheres towards the planes that bound a picture, and towards the eye: everything that framing needs.
+/// For several sets of spheres, take the maximum of each number.
 struct ViewReach {
   static constexpr double kNone = -std::numeric_limits<double>::infinity();
   double across_low = kNone, across_high = kNone, along_low = kNone, along_high = kNone;  ///< planes through the eye
@@ -69,7 +68,7 @@ struct ViewReach {
 };
 /// `points`: to be in view besides the spheres.
 ViewReach reach_in_view(const SphereSet& spheres, const std::vector<Vec3d>& points, const Framing& framing);
-/// The camera of frame_spheres() for spheres of this reach.
+/// The camera of frame_spheres() for spheres of this extent.
 Camera camera_for(const Framing& framing, const ViewReach& reach);
 
 /// One white light above, left of and behind the camera, at least as far from look_at as the camera is.

@@ -36,7 +36,7 @@ std::int64_t cube_root(std::int64_t count) {
   return k;
 }
 
-// A k x k x k grid with k^3 <= count; the remaining spheres start again at the first place.
+// A k x k x k grid with k^3 <= count; the remaining spheres start again at the first position.
 void add_grid(Centres& centres, std::int64_t count, float radius) {
   if (count == 0) return;
   // Steps by repeated addition: the rounding of the sums decides ties of the tree builder.
@@ -70,7 +70,7 @@ Error out_of_range(const std::string& what, const std::string& expected) {
   return {what + " is out of range", "", 0, 0, "it must be " + expected};
 }
 
-// Red and transparent in turn. The text does not say which sphere has which material; so both are seen everywhere.
+// Red and transparent in turn. The text does not say which sphere has which material; so both are visible everywhere.
 void alternate_materials(Scene& scene) {
   scene.material_of_sphere.resize(static_cast<std::size_t>(scene.spheres.size()));
   for (std::size_t i = 0; i < scene.material_of_sphere.size(); ++i)

@@ -24,8 +24,8 @@ float scenario_radius(double radius);
 /// first. All arithmetic is binary32 in the order that the reference gives, because ties of one ulp decide the tree.
 Result<SphereSet> scenario_spheres(Scenario scenario, const ScenarioParameters& parameters);
 
-/// With the thesis's camera, light, plane, materials (red and transparent in turn), black background, no shadows, no
-/// transfer curve, one sample a pixel.
+/// The spheres with the thesis's camera, light, plane, materials (red and transparent in turn), black background, no
+/// shadows, no transfer curve, one sample a pixel.
 Result<Scene> scenario_scene(Scenario scenario, const ScenarioParameters& parameters);
 
 /// Figure 4.2: three red spheres and a transparent one. Each of the recursion depths 1 to 5 is the deepest depth of

@@ -1,4 +1,4 @@
-// Colours of images by their own places: `colour-by z` runs over all copies, of which only one is stored.
+// Colours of images by their own positions: `colour-by z` runs over all copies, of which only one is stored.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class ImageColours {
 
  private:
   const Scene& scene_;
-  std::vector<FoundAttribute> by_place_;  // of each of the scene's `coloured_by`; without numbers: not by place
+  std::vector<FoundAttribute> by_place_;  // for each of the scene's `coloured_by`; without numbers: not by position
   bool any_ = false;
 };
 

@@ -1,4 +1,4 @@
-// The parts that scene files and style files share: from JSON that the schema accepts to their values.
+// Values that scene files and style files share, from JSON that the schema accepts.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +11,7 @@ namespace bihive {
 
 Vec3d vector_from_json(const nlohmann::json& value);
 
-/// What the object does not say keeps the value in `material`. `transfer` is for colours that are texts.
+/// Missing keys keep the value in `material`. `transfer` is for colours that are texts.
 void take_material(const nlohmann::json& value, Transfer transfer, Material& material);
 
 }  // namespace bihive

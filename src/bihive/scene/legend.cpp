@@ -18,7 +18,7 @@ class CategoryNames {
  public:
   CategoryNames(const SphereSet& spheres, const FoundAttribute& attribute) : spheres_(spheres), attribute_(attribute) {}
 
-  // Rises in the order of the legend; NaN: unknown.
+  // Ascends in the order of the legend; NaN: unknown.
   double place(std::int64_t id) const {
     if (attribute_.is_element()) {
       const double number = attribute_.number_of(spheres_, id);
@@ -61,7 +61,7 @@ class KeyCollector {
         !std::isnan(place_in_range(*how_.range, how_.logarithmic, attribute_.number_of(scene_.spheres, id))))
       return;
     const double place = how_.range ? std::nan("") : names_.place(id);
-    // The order of NaN is none.
+    // NaN has no order.
     const auto [position, is_new] = entries_.try_emplace({std::isnan(place), std::isnan(place) ? 0 : place});
     if (!is_new) return;
     spheres_.push_back(id);

@@ -1,4 +1,4 @@
-// What a legend says: the meaning of the spheres' colours, from what coloured them (Scene::coloured_by).
+// The content of a legend: the meaning of the spheres' colours (Scene::coloured_by).
 #pragma once
 
 #include <cstdint>
@@ -33,14 +33,14 @@ struct LegendKey {
 };
 
 /// A key for each attribute that colours at least one sphere, in the order of Scene::coloured_by. Categories are those
-/// of the spheres that are there: elements and numbers from low to high, texts in the input's order. Costs a pass over
-/// all spheres.
+/// of the present spheres: elements and numbers from low to high, texts in the input's order. Costs a pass over all
+/// spheres.
 std::vector<LegendKey> legend_of(const Scene& scene);
 
-/// Spheres of which the legend alone is that of all: of each entry the first, in any order.
+/// Spheres that give the legend of all: the first of each entry, in any order.
 std::vector<std::int64_t> spheres_of_legend(const Scene& scene);
 
-/// The value of the screen for linear light under a transfer, 0 to 1.
+/// The screen value of linear light under a transfer, 0 to 1.
 Vec3d screen_colour(Vec3d linear, Transfer transfer);
 
 }  // namespace bihive

@@ -13,7 +13,7 @@ namespace {
 constexpr double kGolden = 0.61803398874989484820;  // 1 / (the golden ratio)
 
 // The number next to n / (golden ratio) that has no divisor in common with n. Its multiples modulo n are all numbers
-// below n, and neighbours of them are far apart.
+// below n, and successive ones are far apart.
 int golden_step(int n) {
   int step = static_cast<int>(std::floor(n * kGolden + 0.5));
   while (step > 1 && std::gcd(step, n) != 1) --step;
@@ -22,9 +22,9 @@ int golden_step(int n) {
 
 }  // namespace
 
-// Vogel's spiral: place j of n at radius sqrt(j + 1/2), a golden angle further than the place before. The samples go
-// through it by golden steps, because their places in the pixel go from left to right: no part of the pixel sees
-// through one ring of the lens alone.
+// Vogel's spiral: point j of n at radius sqrt(j + 1/2), a golden angle further than the previous one. The samples visit
+// it in golden steps, because their positions in the pixel go from left to right: no region of the pixel sees through
+// one ring of the lens alone.
 std::vector<CameraSample> camera_samples(int n) {
   std::vector<CameraSample> samples;
   const int step = golden_step(n);

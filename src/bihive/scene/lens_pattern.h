@@ -1,4 +1,4 @@
-// The places on a camera's lens through which the samples of a pixel look.
+// The points on a camera's lens through which the samples of a pixel see.
 //
 // They are the same in every pixel, so neighbouring pixels see along neighbouring rays, and the picture has no noise.
 #pragma once
@@ -10,14 +10,14 @@
 
 namespace bihive {
 
-/// A sample: its place in the pixel and its place on the lens.
+/// A sample: its position in the pixel and on the lens.
 struct CameraSample {
   SamplePlace place;
   LensPlace lens;
 };
 
-/// The n samples of a pixel, n at least 1: sample_place() in the pixel, and on the lens as many places that fill the
-/// disc evenly [Vogel1979]. The only sample of n = 1 looks through the middle of the lens.
+/// The n samples of a pixel, n at least 1: sample_place() in the pixel, and as many points on the lens that fill the
+/// disc evenly [Vogel1979]. The only sample of n = 1 is in the middle of the lens.
 std::vector<CameraSample> camera_samples(int n);
 
 }  // namespace bihive

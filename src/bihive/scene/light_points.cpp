@@ -7,9 +7,9 @@
 
 namespace bihive {
 
-// Even points of the sphere in four dimensions, without their fourth coordinate: by Archimedes' theorem each plane
-// projection of that sphere is an evenly filled disc. Coordinates: (sqrt(u) e^ia, sqrt(1 - u) e^ib) with u even in
-// [0, 1] and even angles a and b, whose steps are powers of the plastic number, the golden ratio of two dimensions.
+// Evenly spread points of the sphere in four dimensions, without their fourth coordinate: by Archimedes' theorem each
+// plane projection of that sphere is an evenly filled disc. Coordinates: (sqrt(u) e^ia, sqrt(1 - u) e^ib) with u even
+// in [0, 1] and even angles a and b, whose steps are powers of the plastic number, the golden ratio of two dimensions.
 LightPointSets::LightPointSets(int points, int samples_per_pixel) {
   constexpr double kPlastic = 1.32471795724474602596;  // the real root of x^3 = x + 1
   const Rotation step_a = turn_by(1 / kPlastic);

@@ -1,7 +1,7 @@
-// Soft shadows: the points of lights with a radius towards which places look.
+// Soft shadows: points of lights with a radius, the targets of shadow rays.
 //
-// The points are the same for all places, so neighbouring pixels ask along neighbouring rays and the picture has no
-// noise. The samples of a pixel take different points, so that together they see more of them.
+// The points are the same for all shading points, so neighbouring pixels trace neighbouring rays and the picture has no
+// noise. The samples of a pixel use different points, so that together they cover more of them.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace bihive {
 
-/// Samples beyond this many take the points of the first ones again.
+/// Samples beyond this many reuse the first points.
 constexpr int kMostPointSets = 16;
 
 /// Points of the ball of radius 1 around 0: sample i of every pixel takes set i % count(). Seen from any side they fill

@@ -52,7 +52,7 @@ Result<Vec3d> vector_in(const std::string& text) {
   return vector;
 }
 
-// The part of that number, or nothing where the text has fewer or the part is empty.
+// Field number N, or nothing if the text has fewer fields or the field is empty.
 std::string part(const std::vector<std::string>& parts, std::size_t i) {
   return i < parts.size() ? parts[i] : std::string();
 }

@@ -1,4 +1,4 @@
-// Lights as a person writes them: `bihive render --light`.
+// Lights as users write them: `bihive render --light`.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace bihive {
 
-/// What several texts ask for together: at most one preset, and any number of single lights.
+/// The lights that several texts ask for: at most one preset, and any number of single lights.
 struct LightChoice {
   std::optional<LightRig> preset;
   std::vector<CameraLight> around;
@@ -21,7 +21,7 @@ struct LightChoice {
 
 /// Adds a text to the choice. It is the name of a preset, or a light of its own:
 ///   from:RIGHT,UP,TOWARDS[:COLOUR[:STRENGTH[:DEG]]]   a CameraLight far away in that direction from the camera
-///   at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]]             a PointLight at a place of the world
+///   at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]]             a PointLight at a point of the world
 /// COLOUR: as colour_choice_from_text() takes it, white if it is empty or left out. STRENGTH multiplies it: 0 to
 /// 1e6, 1. DEG: 0 to 90, 0. RADIUS: 0 to 1e18, 0. Error: what was expected instead.
 Status add_light(const std::string& text, LightChoice& choice);

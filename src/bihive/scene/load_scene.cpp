@@ -13,7 +13,7 @@
 namespace bihive {
 namespace {
 
-// Bytes for each sphere of a generated scene: three growing arrays and radii, the set itself, materials.
+// Bytes per sphere of a generated scene: three growing arrays and radii, the set itself, materials.
 constexpr double kBytesPerGeneratedSphere = 3 * 4 * 1.5 + 4 + 16 + 4;
 
 Result<LoadedScene> from_spheres(Result<SphereFile> file, const std::string& name, const Style* style) {
@@ -70,7 +70,7 @@ bool is_built_in_scene(const std::string& name) {
 }
 
 Status check_scenario_memory(const ScenarioParameters& parameters) {
-  return check_memory(static_cast<double>(parameters.count) * kBytesPerGeneratedSphere, "so many spheres");
+  return check_memory(static_cast<double>(parameters.count) * kBytesPerGeneratedSphere, "this many spheres");
 }
 
 Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters,

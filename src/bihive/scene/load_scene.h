@@ -1,4 +1,4 @@
-// From a user's input to a scene: a built-in name, or the bytes of a scene file or of a file of spheres.
+// Makes a scene of a user's input: a built-in name, or the bytes of a scene file or of a file of spheres.
 #pragma once
 
 #include <array>
@@ -27,15 +27,15 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
 
 /// A scene file if the bytes look like one, else spheres of any known format, coloured by element or type. `name` is
 /// the file's, as for parse_scene() and read_spheres_from_memory().
-/// `style` is the look of what the bytes do not say themselves; null: plain.
+/// `style` is the default appearance; null: plain.
 Result<LoadedScene> load_scene(std::string_view bytes, const std::string& name, const ReadOptions& options = {},
                                LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr);
 
 /// The scene of spheres that were read, as load_scene() makes it: for frames (io/frames.h). `name` is the scene's.
 LoadedScene scene_of_spheres(SphereFile file, const std::string& name, const Style* style = nullptr);
 
-/// Gives spheres of a file (not of a scene file) another style than that with which they were loaded: the scene becomes
-/// what load_scene() makes with it. No look must have been done yet.
+/// Gives spheres of a file (not of a scene file) another style than the one they were loaded with: the scene becomes
+/// what load_scene() makes with it. No look must have been applied yet.
 void restyle(LoadedScene& loaded, const Style& style);
 
 }  // namespace bihive

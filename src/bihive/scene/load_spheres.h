@@ -1,4 +1,4 @@
-// From a file of spheres on the disk to a scene.
+// Makes a scene of a file of spheres on the disk.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace bihive {
 
-/// As load_scene() of the file's bytes, of which no more than is needed is in memory. For files that are no scene
-/// files.
+/// As load_scene() of the file's bytes, without holding more of them in memory than needed. For files that are not
+/// scene files.
 Result<LoadedScene> load_spheres(const std::string& path, const ReadOptions& options = {},
                                  const Style* style = nullptr);
 

@@ -17,7 +17,7 @@ Error look_error(const std::string& message, const std::string& hint = "") {
   return {message, "", 0, 0, hint};
 }
 
-// What the looks make of the spheres. Each array is empty until an action needs it.
+// The spheres' appearance after the looks. Each array is empty until an action needs it.
 class LookedAt {
  public:
   explicit LookedAt(const Scene& scene) : scene_(scene) {}
@@ -171,13 +171,13 @@ class LookedAt {
     return true;
   }
 
-  // What the colours of the present spheres mean: a position in the scene's list, then in meanings_.
+  // The meaning of the present spheres' colours: a position in the scene's list, then in meanings_.
   void set_meaning(std::int32_t meaning) {
     if (meaning_of_.empty()) meaning_of_ = scene_.coloured_by_of_sphere;
     set(meaning_of_, std::int32_t{scene_.coloured_by.empty() ? -1 : 0}, meaning);
   }
 
-  // The colours as they are: the spheres' own, or those of their materials.
+  // The current colours: the spheres' own, or those of their materials.
   void take_colours() {
     if (!colours_.empty()) return;
     colours_ = scene_.spheres.attributes().colour;
@@ -216,9 +216,9 @@ class LookedAt {
   std::vector<Vec3f> colours_;
   std::vector<float> opacities_, outlines_;
   std::vector<std::int32_t> creases_;
-  std::vector<Material> materials_;  // behind those of the scene
+  std::vector<Material> materials_;  // after those of the scene
   std::vector<std::int32_t> material_of_;
-  std::vector<ColourBy> meanings_;  // behind those of the scene
+  std::vector<ColourBy> meanings_;  // after those of the scene
   std::vector<std::int32_t> meaning_of_;
   std::vector<double> factors_;
   std::vector<Clip> clips_;  // with those of the scene

@@ -1,5 +1,5 @@
-// How selected spheres look: hidden, coloured, clearer, smaller, of another material, outlined, cut open. The options
-// of `bihive render` behind --select, and the key `looks` of scene files.
+// Appearance of selected spheres: hidden, coloured, clearer, smaller, of another material, outlined, cut open. The
+// options of `bihive render` after --select, and the key `looks` of scene files.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,7 @@ struct SetCrease {
 struct AddClip {
   Clip clip;
 };
-/// One thing to do to spheres. To add a kind: one more struct here, and its case in looks.cpp.
+/// One action on spheres. To add a kind: a struct here, and its case in looks.cpp.
 using LookAction =
     std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius, SetOutline, SetCrease, AddClip>;
 
@@ -51,9 +51,9 @@ struct Look {
   std::vector<LookAction> actions;
 };
 
-/// Does all actions in their order; a later one replaces an earlier one, except that factors multiply and clips add up.
-/// Every selection sees the spheres as they were before: hidden ones too, with their first radii and opacities.
-/// Afterwards hidden spheres have left the set; Scene::id_in_input knows the ids of the rest, and materials and
+/// Applies all actions in their order; a later one replaces an earlier one, except that factors multiply and clips add
+/// up. Every selection sees the spheres as they were before: hidden ones too, with their first radii and opacities.
+/// Afterwards hidden spheres are removed from the set; Scene::id_in_input knows the ids of the rest, and materials and
 /// attributes keep in step. Radii are rounded once.
 ///
 /// Returns how many spheres each look selects. Errors: a selection's (column and line as in select_spheres()), an

@@ -1,4 +1,4 @@
-// The answer of a surface to light: the columns of the thesis's Table 4.1.
+// The reflectance of a surface: the columns of the thesis's Table 4.1.
 #pragma once
 
 #include "bihive/math/vec3.h"
@@ -16,17 +16,18 @@ struct Material {
   double power = 1;  ///< Phong exponent, > 0
   double transmissive = 0;
   double refraction_index = 1;  ///< relative to the outside; > 0 if transmissive > 0
-  double tint = 0;              ///< of the highlight: 0 = the light's colour, 1 = times the material's, as of a metal
-  double glow = 0;              ///< share of its colour that it shows without any light
-  int bands = 0;                ///< the diffuse light is rounded to so many even steps; 0 = smooth
+  double tint = 0;              ///< of the highlight: 0 = the light's colour, 1 = times the material's colour, as for
+                                ///< metals
+  double glow = 0;              ///< emission, as a fraction of its colour
+  int bands = 0;                ///< steps to which diffuse light is quantized; 0 = smooth
 };
 
-/// Whether tint, bands or glow, which are not of the thesis, change its answer.
+/// Whether tint, bands or glow, which the thesis does not have, affect its shading.
 inline bool has_effects(const Material& material) {
   return material.tint != 0 || material.bands != 0 || material.glow != 0;
 }
 
-/// Whether light goes straight through it, not refracted.
+/// Whether light passes straight through it, unrefracted.
 inline bool is_passed_straight(const Material& material) {
   return material.transmissive > 0 && material.refraction_index == 1;
 }

@@ -1,4 +1,4 @@
-// Materials that people choose by name.
+// Materials with names.
 #pragma once
 
 #include "bihive/scene/material.h"

@@ -1,4 +1,4 @@
-// The names by which people choose views, sides and projections: on the command line, in saved settings, in links.
+// Names of views, sides and projections: on the command line, in saved settings, in links.
 #pragma once
 
 #include <string>

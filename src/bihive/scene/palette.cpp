@@ -57,7 +57,7 @@ std::array<Vec3f, n> linear_colours(const std::uint32_t (&srgb)[n]) {
   return linear;
 }
 
-// The elements of life by eye, so that they go together; the others are Jmol's, darker and a little greyer.
+// Biological elements are matched by eye; the others are Jmol's, darker and a little greyer.
 std::array<Vec3f, kElements> soft_colours(std::array<Vec3f, kElements> colours) {
   for (Vec3f& colour : colours) {
     const float luminance = 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z;  // ITU-R BT.709
@@ -73,7 +73,7 @@ std::array<Vec3f, kElements> soft_colours(std::array<Vec3f, kElements> colours) 
   return colours;
 }
 
-// Large areas of one type would be shrill.
+// Bright colours would be too vivid for large areas of one type.
 std::array<Vec3f, kTypes> soft_types(std::array<Vec3f, kTypes> colours) {
   for (Vec3f& colour : colours) {
     const float luminance = 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z;

@@ -10,8 +10,7 @@
 
 namespace bihive {
 
-/// Colours of elements, and of types where there are none. jmol: the bright colours that chemists know. soft: calmer
-/// ones for printing.
+/// Colours of elements, or else of types. jmol: the bright colours that chemists know. soft: muted ones for printing.
 enum class ElementScheme { jmol, soft };
 inline const Names<ElementScheme> kElementSchemes{{"jmol", ElementScheme::jmol}, {"soft", ElementScheme::soft}};
 
@@ -23,7 +22,7 @@ Vec3f element_colour(int atomic_number, ElementScheme scheme = ElementScheme::jm
 Vec3f type_colour(std::int32_t type, ElementScheme scheme = ElementScheme::jmol);
 
 /// Fills the colour attribute if it is empty: from elements if there are any, else from types. Without both it stays
-/// empty. Returns the attribute that it took ("element", "type"), or an empty text.
+/// empty. Returns the attribute used ("element", "type"), or an empty text.
 std::string_view colour_spheres(SphereSet& spheres, ElementScheme scheme = ElementScheme::jmol);
 
 }  // namespace bihive

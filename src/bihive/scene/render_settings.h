@@ -1,4 +1,4 @@
-// The view of a scene and the fineness of its picture: the same for every renderer.
+// The view of a scene and the quality of its picture, for every renderer.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 namespace bihive {
 
 /// shaded: Whitted's pictures. recursion: the deepest generation that hit something. traversal: gaps passed (green) and
-/// nodes entered (blue) by the primary ray. normal, distance, id: of the first hit. tree: a drawing of the tree itself
-/// (render/tree_picture.h). All but `shaded` are display values.
+/// nodes entered (blue) by the primary ray. normal, distance, id: those of the first hit. tree: a drawing of the tree
+/// itself (render/tree_picture.h). All but `shaded` are display values.
 enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 
-/// The settings of a picture, and what only a renderer needs to know.
+/// The settings of a picture, and those of a renderer alone.
 struct RenderSettings : PictureSettings {
   /// Multiplies the widths of outlines; below one pixel they are left out. For a preview in another size. Above 0.
   double outline_scale = 1;
@@ -23,7 +23,7 @@ struct RenderSettings : PictureSettings {
   int threads = 0;  ///< 0 = as many as the machine runs at once; for the CPU's renderer
 };
 
-/// The pixels of the whole picture that are drawn.
+/// The drawn pixels of the whole picture.
 inline Tile drawn_pixels(const RenderSettings& settings) {
   return settings.crop.value_or(Tile{0, 0, settings.width_px, settings.height_px});
 }

@@ -1,11 +1,11 @@
-// The places of the samples in a pixel: a fixed pattern, the same in every pixel and every picture.
+// Sample positions in a pixel: a fixed pattern, the same in every pixel and every picture.
 #pragma once
 
 #include <cstdint>
 
 namespace bihive {
 
-/// A place in the unit square of a pixel.
+/// A position in the unit square of a pixel.
 struct SamplePlace {
   double x, y;
 };

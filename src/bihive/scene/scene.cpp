@@ -39,7 +39,7 @@ Material material_of(const Scene& scene, std::int64_t sphere_id) {
   if (!attributes.colour.empty() && sphere_id >= scene.spheres.size())
     material.colour = to_double(ImageColours(scene).colour(sphere_id));
 
-  // An opacity lets the rest of the light straight through.
+  // The complement of the opacity is transmitted straight.
   if (!attributes.opacity.empty() && attributes.opacity[i] < 1) {
     const double opacity = double(attributes.opacity[i]);
     material.ambient *= opacity;

@@ -1,4 +1,4 @@
-// All content of a picture, and the way in which its author wants it drawn.
+// The content of a picture, and its author's settings.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 namespace bihive {
 
 /// White light of strength 1 unless coloured; no fall-off with distance. A light with a radius is a bright ball and
-/// throws soft shadows.
+/// casts soft shadows.
 struct PointLight {
   Vec3d position;
   Vec3d colour{1, 1, 1};
@@ -42,47 +42,47 @@ struct Scene {
   SphereSet spheres;
   std::vector<Material> materials{matte_material()};  ///< at least one
   std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
-  std::vector<std::int64_t> id_in_input;              ///< of each sphere, where some are hidden; empty: its position
+  std::vector<std::int64_t> id_in_input;              ///< of each sphere, if some are hidden; empty: its position
   std::int64_t size_of_input = 0;                     ///< spheres with the hidden ones; 0: none is hidden
-  /// What the spheres' colours mean, as colour_by() returned it: their elements, types or numbers. Nothing else depends
-  /// on it than the legend (scene/legend.h).
+  /// The meaning of the spheres' colours, as returned by colour_by(): their elements, types or numbers. Only the legend
+  /// depends on it (scene/legend.h).
   std::vector<ColourBy> coloured_by;
   /// Positions in `coloured_by`, -1: the colour has no meaning. Empty: all have the first, if there is one.
   std::vector<std::int32_t> coloured_by_of_sphere;
   std::string length_unit;  ///< of the input's format ("Å"); empty: unknown
   std::vector<PointLight> lights;
   std::optional<ScenePlane> plane;
-  std::vector<Clip> clips;  ///< SphereAttributes::clips says on which spheres each acts; at most kMostClips
+  std::vector<Clip> clips;  ///< SphereAttributes::clips selects the spheres of each; at most kMostClips
   Camera camera;
   Vec3d background{1, 1, 1};          ///< linear radiance
-  Vec3d ambient_light{1, 1, 1};       ///< light from everywhere: the ambient term is multiplied by it
-  PictureSettings picture;            ///< the author's way to draw it; a user may choose another
+  Vec3d ambient_light{1, 1, 1};       ///< multiplies the ambient term
+  PictureSettings picture;            ///< the author's settings; a user may override them
   std::string name;                   ///< for messages and the picture's text chunks
   std::optional<std::uint64_t> seed;  ///< of a generated scene
 };
 
-/// The id by which people know a sphere: its position in the input, hidden spheres counted. Negative ids (nothing, the
-/// plane) stay what they are. Images are counted copy by copy, as if nothing were hidden.
+/// The id that users see: a sphere's position in the input, hidden spheres counted. Negative ids (nothing, the plane)
+/// stay what they are. Images are counted copy by copy, as if nothing were hidden.
 inline std::int64_t input_id(const Scene& scene, std::int64_t id) {
   if (id < 0 || scene.id_in_input.empty()) return id;
   const std::int64_t of_stored = scene.id_in_input[static_cast<std::size_t>(scene.spheres.stored_id(id))];
   return of_stored + id / scene.spheres.size() * scene.size_of_input;
 }
 
-/// Whether some light throws soft shadows.
+/// Whether some light casts soft shadows.
 bool has_soft_light(const Scene& scene);
 
-/// Whether some sphere has lines that are not the picture's: an outline of its own width, or creases.
+/// Whether some sphere has outlines of its own: a width, or creases.
 bool has_own_lines(const Scene& scene);
 
 /// Whether a material of the list or of the plane has effects.
 bool has_effects(const Scene& scene);
 
-/// Whether light goes through some sphere, straight or refracted.
+/// Whether some sphere transmits light, straight or refracted.
 bool lets_light_through(const Scene& scene);
 
-/// The material of one sphere: its material from the list. A colour attribute replaces the colour. An opacity a below 1
-/// scales ambient, diffuse and specular by a, and 1 - a of the light goes straight through (index 1).
+/// The material of one sphere, from the list. A colour attribute replaces the colour. An opacity a below 1 scales
+/// ambient, diffuse and specular by a, and 1 - a of the light goes straight through (index 1).
 Material material_of(const Scene& scene, std::int64_t sphere_id);
 
 }  // namespace bihive

@@ -67,7 +67,7 @@ class Extraction {
 
   Vec3d colour(const json& value) const { return colour_from_json(value, loaded_.scene.picture.transfer); }
 
-  // A key that came with a later version of the format.
+  // A key introduced by a later version of the format.
   void need_version(int version, const std::string& pointer) {
     if (document_.at("bihive_scene").get<int>() < version)
       fail(pointer,
@@ -253,7 +253,7 @@ class Extraction {
     return bits;
   }
 
-  // The document's cell and copies fill the gaps of the caller's options.
+  // The document's cell and copies apply unless the caller's options state others.
   void take_cell(ReadOptions& options) {
     for (const char* key : {"cell", "replicate", "wrapping"})
       if (document_.contains(key)) need_version(2, std::string("/") + key);
@@ -288,7 +288,7 @@ class Extraction {
       return fail("/spheres", "there is no assembly \"" + options_.assembly + "\": the spheres are in the document");
     if (!options_.columns.empty())
       return fail("/spheres", "there are no columns to choose: the spheres are in the document");
-    // Go through all of them. A sphere without colour, opacity or material gets the default.
+    // Fill the arrays. A sphere without colour, opacity or material gets the default.
     const std::size_t n = values.size();
     RawSpheres raw;
     raw.format = "scene file";
@@ -338,7 +338,7 @@ class Extraction {
     for (std::size_t i = 0; i < colours.size(); ++i)
       if (!coloured[i]) colours[i] = to_float(loaded_.scene.materials[static_cast<std::size_t>(materials[i])].colour);
 
-    // Go on as with any other file.
+    // Continue as with any other file.
     ReadOptions options = options_;
     take_cell(options);
     Result<SphereFile> file = finish_spheres(std::move(raw), "", options);
@@ -374,7 +374,7 @@ class Extraction {
   }
 
   void take_sphere_file(const json& value) {
-    // The document's values fill the gaps of the caller's options.
+    // The document's values apply unless the caller's options state others.
     ReadOptions options = options_;
     if (!options.radius && value.contains("radius")) options.radius = value.at("radius").get<double>();
     options.radius_scale *= value.value("radius_scale", 1.0);
@@ -401,7 +401,7 @@ class Extraction {
     Result<SphereFile> file = read_spheres(path, options);
     if (!file) return fail("/spheres/file", file.error().to_string());
 
-    // A camera stands where the document's own spheres are, so it moves along if the caller moves those.
+    // The camera belongs to the document's own spheres, so it moves along if the caller moves them.
     const std::string format = file->format;
     keep(std::move(*file), path + ": ", options.recenter && !recentred_by_document);
 
@@ -419,7 +419,7 @@ class Extraction {
       take_default_colours(scene, format, style_);
   }
 
-  // A focus on selected spheres, which are known now.
+  // Focus on selected spheres, now that they are known.
   void take_focus() {
     const json* const camera = document_.contains("camera") ? &document_.at("camera") : nullptr;
     if (camera == nullptr || !camera->contains("focus") || !camera->at("focus").is_string()) return;
@@ -475,7 +475,7 @@ bool looks_like_scene(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || bytes[first] != '{') return false;
 
-  // The databases of another program begin with their first row.
+  // Databases of other programs begin with their first row.
   const std::size_t key = bytes.find_first_not_of(" \t\r\n", first + 1);
   return key == std::string_view::npos || bytes.substr(key, 3) != "\"1\"";
 }

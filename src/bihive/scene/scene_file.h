@@ -25,28 +25,28 @@ struct LoadedScene {
   LightRig rig;
   std::string format = "scene file";    ///< or "built-in", or a sphere file's format (scene/load_scene.h)
   std::int64_t frames = 1;              ///< frames or models in the document's sphere file
-  std::optional<double> time_ps;        ///< of the frame, where its file states it
-  std::optional<std::int64_t> step;     ///< of the simulation, where its file states it
+  std::optional<double> time_ps;        ///< of the frame, if its file states it
+  std::optional<std::int64_t> step;     ///< of the simulation, if its file states it
   std::vector<std::string> assemblies;  ///< of its sphere file: as SphereFile::assemblies
-  std::vector<std::string> rules;       ///< what was done to its spheres, one sentence each
+  std::vector<std::string> rules;       ///< changes made to its spheres, one sentence each
   Vec3d recentred_by;                   ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
   std::vector<std::string> files;  ///< paths of other files that were read
-  std::vector<Look> looks;         ///< the document's; done already, unless LooksOfFile::keep was asked for
+  std::vector<Look> looks;         ///< the document's; already applied, unless LooksOfFile::keep was given
 };
 
-/// Whether a document's looks are done while it is read, or kept for a caller who has more of them to add.
+/// Whether a document's looks are applied while it is read, or kept for a caller who adds more.
 enum class LooksOfFile { apply, keep };
 
 /// `name` is the file's name for messages; relative paths in the document start from its folder. The options apply to
-/// inline spheres and to a sphere file of the document alike, and replace what the document says. If only the options
-/// recentre, camera, lights and plane move along. Errors name the path inside the document (/materials/0/power) and the
-/// expected value.
-/// `style`: the look of what the document does not say; null: plain.
+/// inline spheres and to a sphere file of the document alike, and override the document. If only the options recentre,
+/// camera, lights and plane move along. Errors name the path inside the document (/materials/0/power) and the expected
+/// value.
+/// `style`: the default appearance; null: plain.
 Result<LoadedScene> parse_scene(std::string_view json, const std::string& name, const ReadOptions& options,
                                 LooksOfFile looks = LooksOfFile::apply, const Style* style = nullptr);
 
-/// True if the bytes look like a scene document (first character after white space is '{').
+/// Whether the bytes may be a scene document (first character after white space is '{').
 bool looks_like_scene(std::string_view bytes);
 
 /// A complete document with the spheres inline; parse_scene() gives back an equal scene.

@@ -1,4 +1,4 @@
-// The other half of scene_file.h: from a scene to its document.
+// The writing half of scene_file.h.
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ std::string text(const std::string& value) {
   return nlohmann::json(value).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-// With the comma before them, or nothing.
+// With a leading comma, or empty.
 std::string effect_members(const Material& m) {
   if (!has_effects(m)) return "";
   return fmt::format(R"(, "tint": {}, "bands": {}, "glow": {})", number(m.tint), m.bands, number(m.glow));
@@ -122,7 +122,7 @@ void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
   out += "}";
 }
 
-// With its comma, or nothing.
+// With its comma, or empty.
 std::string projection_members(const Camera& camera) {
   if (camera.projection == Projection::perspective) return "";
   return fmt::format(", \"projection\": \"orthographic\", \"shorter_side\": {}", number(camera.shorter_side));
@@ -155,7 +155,7 @@ bool has_own_outlines(const Scene& scene) {
   return !attributes.outline_px.empty() || !attributes.crease.empty();
 }
 
-// The oldest version of the format that has all that the scene needs.
+// The oldest version of the format that can hold the scene.
 int version_of(const Scene& scene) {
   const bool parallel = scene.camera.projection != Projection::perspective;
   return picture_version(scene.picture) > 1 || !lens_members(scene.camera).empty() || has_soft_light(scene) ||

@@ -35,7 +35,7 @@ std::string in_quotes(const std::string& text) {
 
 // --- Syntax -----------------------------------------------------------------------------------------------------
 
-// Reads a document without keeping it, and finds the place where it stops being JSON, and keys that occur twice.
+// Parses a document without keeping it; finds the offset where it stops being JSON, and duplicate keys.
 class SyntaxCheck : public json::json_sax_t {
  public:
   bool null() override { return true; }
@@ -113,7 +113,7 @@ const json& resolved(const json& schema) {
   return *at;
 }
 
-// One part of the schema prepared for checking values.
+// A node of the schema, prepared for checking values.
 class Judge {
  public:
   explicit Judge(const json& schema) {
@@ -148,7 +148,7 @@ std::string list_of_keys(const json& properties) {
   return keys;
 }
 
-// The fault of a value that the schema refuses, at the deepest place that explains it.
+// The fault of a value that the schema refuses, at the deepest location that explains it.
 Error explain(const json& value, const json& unresolved_schema, const std::string& path) {
   const json& schema = resolved(unresolved_schema);
   const std::string place = (path.empty() ? "/" : path) + ": ";
@@ -167,7 +167,7 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
   }
   if (schema.contains("type") && !has_type(value, schema.at("type").get<std::string>())) return expected;
 
-  // In an object, look for unknown and missing keys, then into the values.
+  // In an object, search for unknown and missing keys, then check the values.
   if (value.is_object() && schema.contains("properties")) {
     const json& properties = schema.at("properties");
     for (const auto& member : value.items())

@@ -1,5 +1,4 @@
-// From text to a JSON document that the published schema (docs/scene.schema.json) accepts, or to an error that a person
-// understands.
+// Parses text into a JSON document that the published schema (docs/scene.schema.json) accepts, or a readable error.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,8 +13,8 @@ namespace bihive {
 /// twice in one object is an error too. `name` is the file's name for the message.
 Result<nlohmann::json> parse_json(std::string_view text, const std::string& name);
 
-/// Success if scene_schema() accepts the document. Otherwise an error for the first refused place, in the order of
-/// keys: the JSON pointer of the place, the expected value by the schema's title, and the value that was found.
+/// Success if scene_schema() accepts the document. Otherwise an error for the first refused value, in the order of
+/// keys: its JSON pointer, the expected value by the schema's title, and the value found.
 Status check_against_schema(const nlohmann::json& document, const std::string& name);
 
 /// The same for one of the schema's definitions.

@@ -1,4 +1,4 @@
-// A look that fits any input: a material, colours, lights that stand around the camera, and effects.
+// A style fits any input: a material, colours, lights around the camera, and effects.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace bihive {
 
-/// A share of all spheres: with more of one colour a picture says less than by element.
+/// Maximum share of all spheres with one colour: above it, a picture says less than by element.
 constexpr double kMostOfOneColour = 0.75;
 
-/// Colours of atoms by what they belong to instead of by element.
+/// Colours of atoms by an attribute instead of by element.
 struct AtomColours {
   std::string attribute;   ///< such as chain
   std::int64_t above = 0;  ///< only for sets with more spheres
@@ -29,26 +29,26 @@ struct Style {
   std::string description;  ///< one line
   Material material = matte_material();
   ElementScheme element_colours = ElementScheme::jmol;
-  /// Of spheres without element, type and own colour, if they have the attribute. Unset: the material's colour.
+  /// For spheres without element, type and own colour, if they have the attribute. Unset: the material's colour.
   std::optional<ColourBy> colour_by;
-  /// Of spheres with elements, if the attribute tells them apart: no value of it holds more than kMostOfOneColour of
+  /// For spheres with elements, if the attribute distinguishes them: no value of it holds more than kMostOfOneColour of
   /// them. Unset: by element.
   std::optional<AtomColours> colour_atoms_by;
   /// Lines between spheres that touch and differ in this attribute, if they have it; empty: none.
   std::string crease;
   LightRig lights;
   Vec3d background{1, 1, 1};  ///< linear
-  PictureSettings picture;    ///< its size and transfer are of no use
+  PictureSettings picture;    ///< its size and transfer are unused
 };
 
-/// The styles that the library brings along, the default one first.
+/// The built-in styles, the default one first.
 const std::vector<std::string>& style_names();
 
 /// One of them. Error: there is none of this name; the hint lists all.
 Result<Style> style_named(std::string_view name);
 
-/// From the text of a style file (docs/styles.md; docs/scene.schema.json under definitions/style). `file` is for
-/// messages, and the name of a style without one. What the text does not say is as in the style `plain`.
+/// Parses a style file (docs/styles.md; docs/scene.schema.json under definitions/style). `file` is for messages, and
+/// the name of a style without one. Missing keys are as in the style `plain`.
 Result<Style> parse_style(std::string_view text, const std::string& file);
 
 /// The scene gets the style's material, background, ambient light and effects, and keeps spheres, camera, lights,

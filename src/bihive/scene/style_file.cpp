@@ -1,4 +1,4 @@
-// The other half of style.h: from a style's text to the style.
+// The parsing half of style.h.
 
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -105,7 +105,7 @@ const std::vector<std::string>& style_names() {
 Result<Style> style_named(std::string_view name) {
   std::string known;
   for (const auto& [style, text] : builtin_styles()) {
-    // A test holds the texts of the program against the schema; they need no judge at run time.
+    // A test checks the built-in styles against the schema, so they need no check at run time.
     if (style == name) return style_from(*json_from_text<json>(text()), style);
     known += (known.empty() ? "" : ", ") + style;
   }

@@ -16,7 +16,7 @@ Error title_error(const std::string& message, const std::string& hint) {
   return {message, "", 0, 0, hint};
 }
 
-// The digits behind the point of ".2f".
+// The digits after the point of ".2f".
 std::optional<int> digits_of(const std::string& form) {
   if (form.size() != 3 || form[0] != '.' || form[1] < '0' || form[1] > '9' || form[2] != 'f') return std::nullopt;
   return form[1] - '0';

@@ -1,4 +1,4 @@
-// Turns a camera around the place that it looks at.
+// Turns a camera around its look-at point.
 #pragma once
 
 #include "bihive/scene/camera.h"
@@ -8,8 +8,8 @@ namespace bihive {
 
 /// Degrees, applied in this order. Each is finite.
 struct Turn {
-  double azimuth = 0;    ///< the eye goes to the right around the picture's vertical; what it sees turns to the left
-  double elevation = 0;  ///< the eye goes up; what it sees tips down towards the viewer
+  double azimuth = 0;    ///< the eye moves to the right around the picture's vertical; the scene turns to the left
+  double elevation = 0;  ///< the eye moves up; the scene tips down towards the viewer
   double roll = 0;       ///< the picture turns counter-clockwise
 };
 

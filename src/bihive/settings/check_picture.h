@@ -1,4 +1,4 @@
-// Settings that contradict each other, which the ranges of single ones cannot show.
+// Checks settings that contradict each other although each is in range.
 #pragma once
 
 #include "bihive/base/result.h"

@@ -1,4 +1,4 @@
-// What is written on a finished picture.
+// Text and marks drawn on a finished picture.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 namespace bihive {
 
 struct Labels {
-  bool legend = false;     ///< what the colours mean (scene/legend.h)
+  bool legend = false;     ///< the meaning of the colours (scene/legend.h)
   bool scale_bar = false;  ///< a round length of the world; for orthographic pictures
   bool axes = false;       ///< the directions of x, y and z
   std::string title = "";  ///< UTF-8; empty: none

@@ -1,19 +1,20 @@
-// How often a sphere takes light from a ray that it lets straight through.
+// How often a sphere attenuates a ray that passes straight through it.
 #pragma once
 
 namespace bihive {
 
-/// A sphere is passed straight if its opacity is below 1, or if its material is transmissive with index 1.
+/// Rays pass straight through a sphere if its opacity is below 1, or if its material is transmissive with index 1.
 ///
-/// each_surface: the ray goes on at each of both surfaces, as a generation of its own, and either surface lets the
-/// transmissive share through; such a sphere throws a full shadow. It is Whitted's rule [Whitted1980] and the thesis's.
-/// once: both surfaces together let that share through, once, outside the count of generations; and shadow rays and
-/// rays of ambient occlusion pass with the same share. Refracting spheres let shadow rays pass straight with theirs.
+/// each_surface: the ray continues at both surfaces, as a generation of its own, and each surface transmits the
+/// transmissive share; such a sphere casts a full shadow. This is Whitted's rule [Whitted1980] and the thesis's. once:
+/// both surfaces together transmit that share, once, and it does not count as a generation; shadow rays and rays of
+/// ambient occlusion are attenuated by the same share. Refracting spheres transmit shadow rays straight, with their own
+/// share.
 enum class OpacityRule { each_surface, once };
 
 /// Rays cross layers in every generation, so their number would be a power of the number of layers. Hence, in a scene
-/// where a sphere is passed straight once, a reflected or refracted ray that carries less of a primary ray's light than
-/// this is not followed: less than 1/8 of a step of an 8-bit picture in linear light.
+/// where the rule `once` applies to some sphere, a reflected or refracted ray that carries less of a primary ray's
+/// light than this is not traced: less than 1/8 of a step of an 8-bit picture in linear light.
 constexpr double kFaintestRay = 1.0 / 2048;
 
 }  // namespace bihive

@@ -54,7 +54,7 @@ std::vector<std::pair<const Parameter*, const SettingValue*>> Overrides::all() c
 }
 
 void Overrides::apply_to(PictureSettings& settings) const {
-  // The transfer curve comes last in the table, so first here; what implies something comes before that.
+  // The transfer curve is last in the table, so first here; a row that implies another comes before it.
   for (auto entry = values_.rbegin(); entry != values_.rend(); ++entry) {
     const auto& [parameter, value] = *entry;
     const auto* const text = std::get_if<std::string>(&value);

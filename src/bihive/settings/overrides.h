@@ -1,4 +1,4 @@
-// What somebody has set, and nothing else: a layer over the settings of a scene or a style.
+// The parameters that somebody has set, and nothing else: a layer over the settings of a scene or a style.
 #pragma once
 
 #include <string>
@@ -10,25 +10,25 @@
 
 namespace bihive {
 
-/// Values of some parameters. That one is set is known, also where its value is that of the layer below.
+/// Values of some parameters. A parameter may be set to the value that the layer below has.
 class Overrides {
  public:
   /// The parameter must exist, and the value fit it; a whole number is a number too.
   void set(std::string_view id, SettingValue value);
-  /// What is below shows again.
+  /// Restores the value of the layer below.
   void reset(std::string_view id);
 
   bool has(std::string_view id) const { return find(id) != nullptr; }
   /// Null: not set.
   const SettingValue* find(std::string_view id) const;
-  /// A flag that is set and on.
+  /// Whether a flag is set and on.
   bool is_on(std::string_view id) const;
   bool empty() const { return values_.empty(); }
   /// Parameters and values, in the order of the table.
   std::vector<std::pair<const Parameter*, const SettingValue*>> all() const;
 
-  /// Puts the values over those of `settings`. A parameter that implies another one switches that on first; a value of
-  /// that one has the last word. Colours as text count under the transfer curve that results.
+  /// Puts the values over those of `settings`. A parameter that implies another switches it on first; an explicit value
+  /// of the other overrides that. Colours as text count under the transfer curve that results.
   void apply_to(PictureSettings& settings) const;
 
  private:
@@ -44,7 +44,7 @@ struct LayeredSettings {
   Overrides user;
 
   PictureSettings result() const;
-  /// The user's value, else the one below. A part of what is switched off keeps its value.
+  /// The user's value, else the one below. Members of something switched off keep their values.
   SettingValue value(const Parameter& parameter) const;
 };
 

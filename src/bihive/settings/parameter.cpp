@@ -15,7 +15,7 @@ std::string number_text(double value) {
   return fmt::format("{}", value);
 }
 
-// The largest float stands for "any finite number".
+// The largest float means "any finite number".
 bool is_bounded(double limit) {
   return std::abs(limit) < 3e38;
 }

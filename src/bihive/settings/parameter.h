@@ -20,18 +20,18 @@ enum class ParameterKind { flag, whole, number, choice, text, colour };
 /// The heading below which help and controls show a parameter.
 enum class ParameterGroup { picture, light, lines, tone, labels, cell };
 
-/// How ranks on which spheres are distributed read the input under a setting: each its chunk of the file; one rank the
-/// whole file; or the setting does not work there.
+/// How ranks read distributed input under a setting: each rank its chunk of the file; one rank the whole file; or the
+/// setting is not supported.
 enum class ParameterRanks { refused, whole, chunks };
 
-/// What a scene or its camera must have for a parameter to matter.
+/// The property of a scene or its camera without which a parameter has no effect.
 enum class ParameterNeeds { nothing, soft_light, see_through, orthographic };
 
 struct Parameter {
-  std::string_view id;          ///< "light_points": of Python, C, and the JSON of window and page
-  std::string_view alias = "";  ///< another id that is understood too
+  std::string_view id;          ///< "light_points": in Python, C, and the JSON of window and page
+  std::string_view alias = "";  ///< another accepted id
   ParameterKind kind = ParameterKind::flag;
-  double least = 0, most = 0;   ///< of numbers
+  double least = 0, most = 0;   ///< range of numbers
   bool above_least = false;     ///< `least` itself is out of range
   bool or_zero = false;         ///< 0 is in range too: none
   bool nullable = false;        ///< may be std::monostate
@@ -39,33 +39,33 @@ struct Parameter {
 
   std::string_view path = "";    ///< key in `picture` of scene and style files: "fog", or "fog.start"; "": none
   std::string_view report = "";  ///< key in reports and in the text of PNG files; "": none
-  int version = 2;               ///< of the scene format that brought the key
+  int version = 2;               ///< of the scene format that introduced the key
   ParameterNeeds needs = ParameterNeeds::nothing;
 
   ParameterRanks ranks = ParameterRanks::refused;
 
   bool has_option = true;         ///< "--" and the id with hyphens; false: another option of the command line sets it
   bool has_no_option = false;     ///< a flag: "--no-..." too
-  bool in_window = true;          ///< window and page have it too
-  bool cpu_only = false;          ///< the graphics processor does not draw it
-  std::string_view implies = "";  ///< setting it switches this parameter on, unless that is set as well
-  std::string_view value_name = "N";  ///< of its value in --help
+  bool in_window = true;          ///< available in window and page
+  bool cpu_only = false;          ///< not drawn by the GPU
+  std::string_view implies = "";  ///< switched on by setting this one, unless set explicitly
+  std::string_view value_name = "N";  ///< name of the value in --help
   std::string_view help = "";         ///< one sentence, without a full stop
-  std::string_view usual = "";        ///< what holds unless it is set, where help should say it: "the style's"
+  std::string_view usual = "";        ///< the default, if help should state it: "the style's"
   ParameterGroup group = ParameterGroup::picture;
 
-  // Its control in window and page.
+  // The control in window and page.
   std::string_view label = "";               ///< "": it has none
-  std::string_view long_label = "";          ///< where there is room; "": `label`
-  int place = 0;                             ///< in the group: lower ones come first, equal ones as in the table
+  std::string_view long_label = "";          ///< if there is room; "": `label`
+  int place = 0;                             ///< order in the group: ascending, equal ones as in the table
   std::string_view choice_labels = "";       ///< of `names`: "cut off|soft|filmic"; "": the names themselves
-  std::string_view empty_means = "";         ///< shown in a field that is empty: "no limit"
+  std::string_view empty_means = "";         ///< shown in an empty field: "no limit"
   double slider_least = 0, slider_most = 0;  ///< equal: a field instead of a slider
   double slider_step = 1;
   std::string_view unit = "";         ///< after the slider's number; "%": of a share
   std::string_view only_with = "";    ///< a flag without which it changes nothing
-  std::string_view replaced_by = "";  ///< a flag that takes its place
-  std::string_view note = "";         ///< why it is disabled, where engine or camera cannot draw it; a sentence
+  std::string_view replaced_by = "";  ///< a flag that overrides it
+  std::string_view note = "";         ///< why it is disabled if engine or camera cannot draw it; a sentence
 
   SettingValue (*get)(const PictureSettings&) = nullptr;
   /// The value must be in range.
@@ -90,7 +90,7 @@ std::vector<const Parameter*> controls_of(ParameterGroup group);
 /// "a whole number from 1 to 16", "one of none, soft, filmic".
 std::string expected_by(const Parameter& parameter);
 
-/// Whether the value is of the parameter's kind and in its range. A colour may be text.
+/// Whether the value has the parameter's kind and is in range. A colour may be text.
 bool fits(const Parameter& parameter, const SettingValue& value);
 
 /// "--light-points".

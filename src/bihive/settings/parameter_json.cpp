@@ -26,7 +26,7 @@ std::string key_of(std::string_view path) {
   return std::string(path.substr(path.find('.') + 1));
 }
 
-// The row that says whether the row's object is there.
+// The row that says whether the row's object is present.
 const Parameter& presence_of(const Parameter& row) {
   return row.implies.empty() ? row : *parameter_named(row.implies);
 }
@@ -36,7 +36,7 @@ bool is_there(const Parameter& row, const PictureSettings& settings) {
   return std::get<double>(value) != 0;
 }
 
-// A switch whose parts are an object: the object's presence says it.
+// A switch whose members are an object: the object's presence states it.
 bool is_switch_of_object(const Parameter& row) {
   if (row.kind != ParameterKind::flag) return false;
   for (const Parameter& part : picture_parameters())
@@ -48,7 +48,7 @@ bool is_default(const Parameter& row, const PictureSettings& settings) {
   return row.get(settings) == row.get(PictureSettings());
 }
 
-// Whether a scene file says it.
+// Whether a scene file states it.
 bool is_written(const Parameter& row, const PictureSettings& settings) {
   if (row.path.empty() || is_switch_of_object(row)) return false;
   if (std::holds_alternative<std::monostate>(row.get(settings))) return false;
@@ -56,7 +56,7 @@ bool is_written(const Parameter& row, const PictureSettings& settings) {
   return row.version == 1 || !is_default(row, settings);
 }
 
-// In as few digits as give the same bits.
+// With as few digits as give the same bits.
 std::string text_of(const Parameter& row, const SettingValue& value) {
   // JSON keeps the sign of -0 only in a fraction.
   const auto text = [](double number) {
@@ -68,7 +68,7 @@ std::string text_of(const Parameter& row, const SettingValue& value) {
   return value_to_json(row, value).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-// The settings with a default object in place of the one that holds the row.
+// The settings with a default object instead of the one that holds the row.
 void make_anew(const Parameter& part, PictureSettings& settings) {
   const Parameter& presence = presence_of(part);
   presence.set(settings, presence.kind == ParameterKind::flag ? SettingValue(false) : SettingValue(0.0));
@@ -146,7 +146,7 @@ void take_picture(const json& picture, PictureSettings& settings) {
     make_anew(row, settings);
     made = object;
   }
-  // From the last row to the first: the transfer curve before colours, and parts before what they are parts of.
+  // From the last row to the first: the transfer curve before colours, and members before their objects.
   const auto rows = picture_parameters();
   for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
     const std::string object = object_of(row->path);

@@ -22,7 +22,7 @@ std::optional<Vec3d> three_numbers(std::string_view text) {
   return vector;
 }
 
-// Nothing: the text is not of the parameter's kind.
+// Nothing: the text does not have the parameter's kind.
 std::optional<SettingValue> parsed(const Parameter& parameter, const std::string& text) {
   switch (parameter.kind) {
     case ParameterKind::flag:
@@ -58,7 +58,7 @@ Result<SettingValue> value_from_text(const Parameter& parameter, const std::stri
   std::optional<SettingValue> value = parsed(parameter, text);
   if (value && fits(parameter, *value)) return std::move(*value);
   Parameter named = parameter;
-  named.nullable = false;  // null is a word of JSON
+  named.nullable = false;  // null is a keyword of JSON
   return Error{"expected " + expected_by(named) + ", found \"" + text + "\"", "", 0, 0, ""};
 }
 

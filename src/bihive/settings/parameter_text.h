@@ -1,4 +1,4 @@
-// From the text of an option to the value of a parameter.
+// Parses the value of a parameter from the text of an option.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace bihive {
 
-/// A number in decimal, the name of a choice, "true" or "false", a text, a colour. A colour stays a text where its
-/// meaning depends on the transfer curve. Error: the expected and the found text.
+/// A number in decimal, the name of a choice, "true" or "false", a text, a colour. A colour stays a text if its meaning
+/// depends on the transfer curve. Error: the expected and the found text.
 Result<SettingValue> value_from_text(const Parameter& parameter, const std::string& text);
 
 }  // namespace bihive

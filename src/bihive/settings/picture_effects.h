@@ -1,12 +1,12 @@
-// What a picture gets after its light is known: outlines, and fog by depth. Both look at the first hits alone.
+// Post-processing: outlines, and fog by depth. Both depend on the first hits alone.
 #pragma once
 
 #include "bihive/math/vec3.h"
 
 namespace bihive {
 
-/// The background's colour hides what is far: a share that grows evenly with the depth along the view, from 0 at
-/// `start` to `strength` at `end` and beyond. Depths are shares of the set's own depth: 0 at its nearest point (the
+/// Blends in the background's colour by distance: the share grows linearly with the depth along the view, from 0 at
+/// `start` to `strength` at `end` and beyond. Depths are fractions of the set's own depth: 0 at its nearest point (the
 /// eye, if the eye is inside the set), 1 at its farthest. So the same fog fits any set.
 struct Fog {
   double start = 0;       ///< finite, below `end`
@@ -16,19 +16,19 @@ struct Fog {
 
 constexpr double kWidestOutlinePx = 16;
 
-/// A line along the inner edge of what stands in front of something else. A sample of a pixel lies on it if, at most
-/// `width_px` away and at the same place in its pixel, another sphere, the plane or the background is deeper by more
-/// than `step` radii of the sphere that the sample shows. The line fades where spheres appear small, so that it does
-/// not cover them: it is full where the radius appears at least six times as wide as the line, and gone below two
-/// times. Spheres may have a width of their own, and lines between groups that touch, without a step: `outline_px` and
-/// `crease` of geometry/sphere_attributes.h.
+/// A line along the inner edge of whatever is in front of something else. A sample of a pixel lies on it if, at most
+/// `width_px` away and at the same position in its pixel, another sphere, the plane or the background is deeper by more
+/// than `step` radii of the sampled sphere. The line fades where spheres appear small, so that it does not cover them:
+/// it is full where the radius appears at least six times as wide as the line, and gone below two times. Spheres may
+/// have a width of their own, and lines between groups that touch, without a step: `outline_px` and `crease` of
+/// geometry/sphere_attributes.h.
 struct Outline {
   double width_px = 1;    ///< 1 to kWidestOutlinePx
   double step = 2;        ///< radii, >= 0
   Vec3d colour{0, 0, 0};  ///< linear
 };
 
-/// The edges of the periodic cell, of each copy of it. Spheres hide them. The width is that on the picture; at most
+/// The edges of the periodic cell and of each copy. Spheres occlude them. The width is in pixels, at most
 /// kWidestOutlinePx.
 struct CellLines {
   double width_px = 2;

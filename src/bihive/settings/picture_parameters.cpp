@@ -39,7 +39,7 @@ void put(const SettingValue& value, T& member) {
     member = std::get<T>(value);
 }
 
-// A row with the access to its member.
+// A row with access to its member.
 template <auto Member>
 constexpr Parameter row(Parameter parameter) {
   parameter.get = [](const P& s) { return value_of(s.*Member); };
@@ -55,7 +55,8 @@ constexpr Parameter row(Parameter parameter) {
   return parameter;
 }
 
-// The same for a member of something that may be absent; then it has its default. Setting it makes it present.
+// The same for a member of something that may be absent, which then has its default. Setting it makes the object
+// present.
 template <auto Outer>
 using Content = typename std::remove_reference_t<decltype(std::declval<P>().*Outer)>::value_type;
 template <auto Outer, auto Member>
@@ -68,7 +69,7 @@ constexpr Parameter part(Parameter parameter) {
   return parameter;
 }
 
-// Whether something is there.
+// Whether an object is present.
 template <auto Outer>
 constexpr Parameter presence(Parameter parameter) {
   parameter.get = [](const P& s) -> SettingValue { return (s.*Outer).has_value(); };
@@ -79,7 +80,7 @@ constexpr Parameter presence(Parameter parameter) {
   return parameter;
 }
 
-// A number of which 0 means that something is not there.
+// A number whose value 0 means that the object is absent.
 template <auto Outer, auto Member>
 constexpr Parameter strength(Parameter parameter) {
   parameter.get = [](const P& s) -> SettingValue { return s.*Outer ? *(s.*Outer).*Member : 0.0; };
@@ -92,7 +93,7 @@ constexpr Parameter strength(Parameter parameter) {
   return parameter;
 }
 
-// A number of samples takes the place of adaptive ones, unless these are set too.
+// A number of samples replaces adaptive ones, unless these are set too.
 constexpr Parameter fixed_samples(Parameter parameter) {
   parameter = row<&P::samples_per_pixel>(parameter);
   parameter.set = [](P& s, const SettingValue& value) {
@@ -148,7 +149,7 @@ constexpr std::array kRows{
     row<&P::opacity_rule>({.id = "opacity_rule", .kind = choice, .names = "each_surface|once", .path = "opacity_rule",
         .report = "opacity_rule", .needs = ParameterNeeds::see_through,
         .ranks = ParameterRanks::chunks,
-        .help = "Whether a sphere that light passes straight weakens it once or at each surface", .usual = "the style's",
+        .help = "Whether a transparent sphere weakens light once or at each surface", .usual = "the style's",
         .group = Group::light, .label = "opacity", .place = 1, .choice_labels = "at each surface|counts once"}),
     row<&P::light_points>({.id = "light_points", .kind = whole, .least = 1, .most = kMostLightPoints,
         .path = "light_points", .report = "light_points", .needs = ParameterNeeds::soft_light,
@@ -163,14 +164,14 @@ constexpr std::array kRows{
         .unit = "px"}),
     part<&P::outline, &Outline::step>({.id = "outline_step", .kind = number, .least = 0, .most = kLargest,
         .path = "outline.step", .ranks = ParameterRanks::chunks, .implies = "outline_px", .value_name = "F",
-        .help = "Least step in depth at an outline, in radii of the sphere in front", .usual = "2", .group = Group::lines}),
+        .help = "Minimum depth step at an outline, in radii of the sphere in front", .usual = "2", .group = Group::lines}),
     part<&P::outline, &Outline::colour>({.id = "outline_colour", .kind = colour, .path = "outline.colour",
         .ranks = ParameterRanks::chunks,
         .implies = "outline_px", .value_name = "COLOUR", .help = "Colour of outlines", .usual = "black",
         .group = Group::lines}),
     strength<&P::fog, &Fog::strength>({.id = "fog", .kind = number, .least = 0, .most = 1, .path = "fog.strength",
         .report = "fog", .ranks = ParameterRanks::chunks, .value_name = "F",
-        .help = "Share of the background where the set is deepest; 0: none", .usual = "the style's", .group = Group::light,
+        .help = "Share of the background at the set's farthest point; 0: none", .usual = "the style's", .group = Group::light,
         .label = "fog", .slider_least = 0, .slider_most = 1, .slider_step = 0.05, .unit = "%"}),
     part<&P::fog, &Fog::start>({.id = "fog_start", .kind = number, .least = -kLargest, .most = kLargest,
         .path = "fog.start", .ranks = ParameterRanks::chunks, .implies = "fog", .value_name = "F",
@@ -178,7 +179,7 @@ constexpr std::array kRows{
         .group = Group::light}),
     part<&P::fog, &Fog::end>({.id = "fog_end", .kind = number, .least = -kLargest, .most = kLargest,
         .path = "fog.end", .ranks = ParameterRanks::chunks, .implies = "fog", .value_name = "F",
-        .help = "Depth from which fog has its full strength; above that where it begins", .usual = "1",
+        .help = "Depth where fog reaches its full strength; above its start", .usual = "1",
         .group = Group::light}),
     presence<&P::cell_lines>({.id = "cell", .path = "cell_lines", .report = "cell", .ranks = ParameterRanks::whole,
         .cpu_only = true,
@@ -206,12 +207,12 @@ constexpr std::array kRows{
         .group = Group::tone, .label = "tone", .choice_labels = "cut off|soft|filmic"}),
     row<&P::labels, &Labels::title>({.id = "title", .kind = text, .path = "title", .report = "labels.title",
         .ranks = ParameterRanks::chunks, .value_name = "TEXT",
-        .help = "Write this at the top; {time}, {step}, {frame}, {spheres} are values of the\n"
+        .help = "Title at the top; {time}, {step}, {frame}, {spheres} are values of the\n"
                 "frame, {time:.2f} has two digits after the point",
         .group = Group::labels, .label = "title"}),
     row<&P::labels, &Labels::legend>({.id = "legend", .path = "legend", .report = "labels.legend",
         .ranks = ParameterRanks::whole,
-        .help = "Say what the colours mean: a colour bar, or names", .group = Group::labels, .label = "legend",
+        .help = "Legend of the colours: a colour bar, or names", .group = Group::labels, .label = "legend",
         .long_label = "legend of the colours"}),
     row<&P::labels, &Labels::axes>({.id = "axes", .path = "axes", .report = "labels.axes",
         .ranks = ParameterRanks::chunks,

@@ -7,7 +7,7 @@
 
 namespace bihive {
 
-/// What a scene has, for parameters that need it.
+/// Properties of a scene, for parameters that need them.
 struct ReportedScene {
   bool soft_light = false, see_through = false;
 };

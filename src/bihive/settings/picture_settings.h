@@ -1,4 +1,4 @@
-// All settings of a picture that its author may state: in a style, in a scene file, or as a user.
+// All settings of a picture: stated in a style, in a scene file, or by the user.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@ constexpr int kMostSamplesPerPixel = 4096;
 constexpr int kMostGenerations = 16;
 constexpr int kMostLightPoints = 1024;
 
-/// Samples per pixel of adaptive sampling: of every pixel, and of those on edges instead.
+/// Samples per pixel of adaptive sampling: for every pixel, and for those on edges.
 constexpr int kFewSamples = 4;
 constexpr int kManySamples = 16;
-/// Samples per pixel of depth of field unless stated: with fewer, single points of the lens show.
+/// Default samples per pixel with depth of field: with fewer, single points of the lens are visible.
 constexpr int kLensSamples = 64;
 
 /// The table of settings/parameter.h describes each member: its range, its name, its help. The values here are the
@@ -42,12 +42,12 @@ struct PictureSettings {
   std::optional<Fog> fog;
   std::optional<CellLines> cell_lines;  ///< without effect if the spheres have no cell
   /// The picture has opacity instead of a background: samples that hit nothing add no light to their pixel. Reflected
-  /// and transmitted rays see the background as ever. Not for View::traversal and View::tree.
+  /// and transmitted rays still see the background. Not for View::traversal and View::tree.
   bool transparent = false;
-  /// View::shaded: of the light of all samples that hit something, before outlines and fog. So the background and the
-  /// colours of outlines and fog are on the screen what they are.
+  /// View::shaded: applies to the light of all samples that hit something, before outlines and fog. So the background
+  /// and the colours of outlines and fog appear unchanged.
   Tone tone;
-  Labels labels;                       ///< for draw_labels() (render/draw_labels.h); a film has none
+  Labels labels;                       ///< for draw_labels() (render/draw_labels.h); an animation has none
   Transfer transfer = Transfer::srgb;  ///< for png_pixels_from_film(); a film is linear
 };
 

@@ -1,4 +1,4 @@
-// Tables for compress(): the place of each lane when those of a mask move to the front.
+// Tables for compress(): the position of each lane when those of a mask move to the front.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ inline constexpr std::array<std::uint64_t, 256> kCompressPlaces = [] {
   return places;
 }();
 
-/// The same for four lanes, byte by byte: where each of the sixteen bytes comes from.
+/// The same for four lanes, byte by byte: the source of each of the sixteen bytes.
 alignas(16) inline constexpr std::array<std::array<std::uint8_t, 16>, 16> kCompressBytes = [] {
   std::array<std::array<std::uint8_t, 16>, 16> bytes{};
   for (unsigned mask = 0; mask < 16; ++mask)

@@ -3,7 +3,7 @@
 
 namespace bihive {
 
-/// Takes the wish of BIHIVE_TARGET, or the best target, into use.
+/// Activates the target that BIHIVE_TARGET names, or else the best one.
 bool choose_first_target();
 
 /// Cheap after the first call; call it before HWY_DYNAMIC_DISPATCH.

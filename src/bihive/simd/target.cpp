@@ -34,7 +34,7 @@ std::int64_t runnable() {
 #endif
 }
 
-// Whether this machine can run it, and no better name means the same.
+// Whether this machine can run it, and no better name stands for the same target.
 bool is_available(const NamedTarget& target) {
   for (const NamedTarget& better : kNames) {
     if (&better == &target) break;
@@ -70,8 +70,8 @@ bool choose(const std::string& name) {
 
 bool choose_first_target() {
   static const bool chosen = [] {
-    const char* wish = std::getenv("BIHIVE_TARGET");
-    if (wish == nullptr || !choose(wish)) choose("");
+    const char* request = std::getenv("BIHIVE_TARGET");
+    if (request == nullptr || !choose(request)) choose("");
     return true;
   }();
   return chosen;
@@ -98,9 +98,9 @@ Status use_target(const std::string& name) {
 }
 
 Status check_target_environment() {
-  const char* wish = std::getenv("BIHIVE_TARGET");
-  if (wish == nullptr || wish == active_target()) return Done{};
-  Status status = use_target(wish);
+  const char* request = std::getenv("BIHIVE_TARGET");
+  if (request == nullptr || request == active_target()) return Done{};
+  Status status = use_target(request);
   if (!status) return Error{"BIHIVE_TARGET: " + status.error().message, "", 0, 0, status.error().hint};
   return status;
 }

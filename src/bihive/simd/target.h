@@ -18,9 +18,9 @@ std::string active_target();
 /// best. Error: not among available_targets().
 Status use_target(const std::string& name);
 
-/// What the active target's code says of itself: Highway's name of the target that it was compiled for ("AVX3", "AVX2",
-/// "SSE4", "NEON", "WASM", "EMU128", "SCALAR") and how many numbers of binary32 it works on at once. Proves which code
-/// runs.
+/// What the active target's code reports about itself: Highway's name of the target that it was compiled for ("AVX3",
+/// "AVX2", "SSE4", "NEON", "WASM", "EMU128", "SCALAR") and how many numbers of binary32 it works on at once. Proves
+/// which code runs.
 struct CompiledTarget {
   std::string name;
   int float_lanes = 0;

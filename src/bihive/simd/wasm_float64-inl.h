@@ -81,7 +81,7 @@ template <std::size_t N>
 HWY_API Doubles<N> Floor(Doubles<N> v) {
   return {wasm_f64x2_floor(v.raw)};
 }
-/// As on x86: where one is NaN, the second.
+/// As on x86: if one is NaN, the second.
 template <std::size_t N>
 HWY_API Doubles<N> Min(Doubles<N> a, Doubles<N> b) {
   return {wasm_f64x2_pmin(b.raw, a.raw)};

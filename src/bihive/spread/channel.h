@@ -8,10 +8,10 @@
 
 namespace bihive {
 
-/// Thrown by ask() when there will be no answer: the program stops.
+/// Thrown by ask() when no answer will come because the program stops.
 struct ChannelClosed {};
 
-/// Asynchronous messages, while ranks draw: what all do together is spread/communicator.h.
+/// Asynchronous messages between drawing ranks; collective calls are in spread/communicator.h.
 class RankChannel {
  public:
   virtual ~RankChannel() = default;
@@ -19,7 +19,7 @@ class RankChannel {
   virtual int ranks() const = 0;
 
   struct Question {
-    int rank;  ///< whom it is for, not this one
+    int rank;  ///< the recipient, not this one
     Bytes bytes;
   };
   /// Sends all questions, and waits for all answers, in the order of the questions. Any number of threads may ask at a

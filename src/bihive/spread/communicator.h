@@ -1,4 +1,4 @@
-// The ranks of a program, as they work together: collective calls by MPI's names.
+// Collective calls of the ranks of a program, with MPI's names.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Communicator {
   virtual std::vector<Bytes> all_gather(const Bytes& of_this_rank) = 0;
   /// The bytes of rank 0; those of the others do not matter.
   virtual Bytes broadcast(Bytes of_rank_0) = 0;
-  /// Each number becomes the greatest of all ranks' numbers at its position. The length is the same on all.
+  /// Each number becomes the maximum over all ranks at its position. The length is the same on all.
   virtual void all_reduce_max(std::vector<double>& numbers) = 0;
   /// The bytes of each rank for this one.
   virtual std::vector<Bytes> all_to_all(const std::vector<Bytes>& for_each_rank) = 0;

@@ -20,7 +20,7 @@ Result<std::shared_ptr<const LocalSpheres>> LocalSpheres::make(Scene spheres, st
                                                                int threads) {
   if (spheres.spheres.size() >= static_cast<std::int64_t>(kNoPlace))
     return Error{"a rank cannot hold " + std::to_string(spheres.spheres.size()) + " spheres", "", 0, 0,
-                 "take more ranks: each holds up to 2^32"};
+                 "use more ranks: each holds up to 2^32"};
   auto made = std::make_shared<LocalSpheres>();
   made->count_ = count;
   made->scene_ = std::move(spheres);

@@ -1,4 +1,4 @@
-// One rank's spheres: their trees, and the answers that other ranks get from them.
+// One rank's spheres: their trees, and answers to other ranks.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class LocalSpheres {
   LocalSpheres& operator=(const LocalSpheres&) = delete;
 
   /// `spheres`: a scene with this rank's spheres, `count` of them, which ascend by `whole_ids`; then, where clips cut
-  /// some sphere of the whole set, those of other ranks that rays may leave and that matter here, ascending too.
+  /// some sphere of the whole set, those of other ranks on which rays may start and that matter here, ascending too.
   /// Errors: as Tracer::build().
   static Result<std::shared_ptr<const LocalSpheres>> make(Scene spheres, std::vector<std::int64_t> whole_ids,
                                                           std::int64_t count, const SphereColumns& has,
@@ -37,12 +37,12 @@ class LocalSpheres {
   /// The answer to any question of RankChannel.
   Bytes answer(const Bytes& question) const;
 
-  /// The same where question and answer stay on this rank. `rays.leaves`: places.
+  /// The same for questions and answers that stay on this rank. `rays.leaves`: positions.
   void closest_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<FoundSphere>& found) const;
   void occluded(WhichSpheres which, const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
   void all_hits(WhichSpheres which, const RaySpan& rays, RayOrder order, std::vector<FoundSphere>& found) const;
   void pack(const std::vector<std::int64_t>& places, Bytes& bytes) const;
-  /// The place of another rank's sphere, or kNothing if it does not matter here.
+  /// The position of another rank's sphere, or kNothing if it does not matter here.
   std::int64_t place_of_ghost(std::int64_t whole_id) const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// The first sphere with the greatest value so far.
+// The first sphere with the greatest value.
 struct Greatest {
   double value = -kInfinite;
   std::int64_t id = kNothing;
@@ -28,7 +28,7 @@ struct Greatest {
   }
 };
 
-// Of each kind of clear sphere the first (render/transparency.h asks which kinds there are).
+// The first of each kind of clear sphere (render/transparency.h asks which kinds there are).
 void add_clear(const Scene& scene, std::vector<std::int64_t>& ids) {
   if (!lets_light_through(scene)) return;
   bool known[2][2][2] = {};

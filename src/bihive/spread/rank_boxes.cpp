@@ -15,7 +15,7 @@ namespace {
 struct BoxRay {
   Vec3d origin, inverse;
   double t_min, t_max;
-  double pad;  // as that of Slabs (bih/traversal.h), which is more than all that rounds here
+  double pad;  // as for Slabs (bih/traversal.h), which covers all rounding here
 
   BoxRay(const Ray& ray, double scale) {
     const ScaledRay scaled(ray, scale);

@@ -21,13 +21,14 @@ struct RankBox {
 /// The box of a set's spheres, those of radius 0 left out.
 RankBox box_of(const SphereSet& spheres);
 
-/// A rank on the way of a ray.
+/// A rank that a ray may meet.
 struct RankOnWay {
   double t;  ///< no hit on a sphere of the rank is nearer
   std::int32_t rank;
 };
 
-/// The boxes of all ranks, and a tree above them: neighbours in number are neighbours in space (spread/sphere_keys.h).
+/// The boxes of all ranks, and a tree over them: ranks with neighbouring numbers are neighbours in space
+/// (spread/sphere_keys.h).
 class RankBoxes {
  public:
   /// `scale`: stored units from world units.

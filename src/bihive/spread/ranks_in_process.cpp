@@ -18,13 +18,13 @@ namespace {
 // The bytes of each rank for each rank.
 using Given = std::vector<std::vector<Bytes>>;
 
-// The meeting place of the threads.
+// The barrier of the threads.
 class Meeting {
  public:
   explicit Meeting(int size) : size_(size) { begin(); }
   int size() const { return size_; }
 
-  /// Waits for all. Valid as long as somebody keeps it.
+  /// Waits for all. Valid while somebody holds it.
   std::shared_ptr<const Given> meet(int rank, std::vector<Bytes> gives) {
     std::unique_lock lock(mutex_);
     (*given_)[static_cast<std::size_t>(rank)] = std::move(gives);

@@ -1,5 +1,4 @@
-// Ranks that are threads of one process: for tests, and to learn what a picture costs on many ranks without having
-// them.
+// Ranks simulated by threads of one process: for tests, and to measure the cost of a picture on many ranks.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +15,20 @@
 
 namespace bihive {
 
-/// Which spheres a rank has before they are distributed.
+/// The spheres of a rank before they are distributed.
 enum class FirstSpheres {
   all_on_rank_0,
-  in_order,  ///< each rank has some that follow each other
+  in_order,  ///< each rank has consecutive spheres
 };
 
-/// Calls `work` on a thread for each rank, and waits for their end. A rank that leaves out a collective call of the
-/// others keeps them waiting for ever.
+/// Calls `work` on a thread per rank, and joins them. A rank that misses a collective call of the others blocks them
+/// forever.
 void on_ranks_in_process(int ranks, const std::function<void(Communicator&)>& work);
 
 class RanksInProcess {
  public:
   virtual ~RanksInProcess() = default;
-  /// Distributes the spheres of `whole`, with a thread for each rank. Errors as those of SpreadScene::make().
+  /// Distributes the spheres of `whole`, with a thread per rank. Errors as those of SpreadScene::make().
   static Result<std::unique_ptr<RanksInProcess>> make(const Scene& whole, const RenderSettings& settings,
                                                       const TreeParameters& parameters, int ranks, FirstSpheres first);
 
@@ -38,8 +37,8 @@ class RanksInProcess {
   /// Bytes of spheres and samples that the rank sent while the spheres were distributed.
   virtual std::int64_t sent_bytes(int rank) const = 0;
 
-  /// What `rank` asks is answered on the thread that asks, at once. Threads may ask at the same time. Must not outlive
-  /// this object.
+  /// Questions of `rank` are answered at once, on the calling thread. Threads may ask at the same time. Must not
+  /// outlive this object.
   virtual std::unique_ptr<RankChannel> channel(int rank) = 0;
 };
 

@@ -1,6 +1,6 @@
 // The bytes of questions about rays, and of their answers.
 //
-// A column of which all entries are equal takes the space of one: the origin of primary rays, an end that no ray has.
+// A column of equal entries takes the space of one: the origin of primary rays, or absent ends.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ namespace bihive {
 
 enum class QuestionKind : std::uint8_t { closest, occluded, all_hits, spheres };
 
-/// The number of a sphere on its rank, in place of its id in the whole set; kNoPlace: none.
+/// The position of a sphere on its rank, as opposed to its id in the whole set; kNoPlace: none.
 using Place = std::uint32_t;
 constexpr Place kNoPlace = ~Place{0};
 
-/// Some rays of a span: those of the numbers `chosen`. `places`: of the sphere that each chosen ray leaves, as the rank
-/// that is asked knows it. `ghosts`: if it is another rank's sphere, and clips may let it matter, its id in the whole
-/// set; else kNothing. `ends`: of all rays of the span; they replace t_max.
+/// Some rays of a span: those of the numbers `chosen`. `places`: the positions, on the asked rank, of the spheres on
+/// which the chosen rays start. `ghosts`: if it is another rank's sphere, and clips may let it matter, its id in the
+/// whole set; else kNothing. `ends`: for all rays of the span; they replace t_max.
 struct ChosenRays {
   const RaySpan* rays;
   const std::vector<std::int64_t>* chosen;
@@ -30,7 +30,7 @@ struct ChosenRays {
 
 Bytes rays_question(QuestionKind kind, WhichSpheres which, RayOrder order, const ChosenRays& rays);
 
-/// The same on the other side. `rays.leaves` are places, or kNothing.
+/// The same on the receiving side. `rays.leaves` are positions, or kNothing.
 struct RaysAsked {
   WhichSpheres which;
   RayOrder order;

@@ -36,7 +36,7 @@ bool are_alike(const std::vector<double>& numbers, Communicator& ranks) {
   return std::all_of(all.begin(), all.end(), [&](const std::vector<double>& one) { return one == all.front(); });
 }
 
-// The rows of this rank as they stand in the file, which must be the same for all.
+// The rows of this rank as stored in the file, which must be the same for all.
 Result<RawSpheres> read_rows(const std::string& path, Communicator& ranks) {
   const Result<FileChunk> chunk = open_chunk(path, {ranks.rank(), ranks.size()});
   if (!chunk) return chunk.error();
@@ -47,7 +47,7 @@ Result<RawSpheres> read_rows(const std::string& path, Communicator& ranks) {
   if (!spheres || !chunk->columns_may_differ) return spheres;
   const std::optional<double> columns = columns_of(*spheres);
   if (are_alike({columns.value_or(-1)}, ranks) && columns) return spheres;
-  return Error{"parts of this file can be read only if all columns are numbers, and types whole ones", path, 0, 0,
+  return Error{"chunks of this file can be read only if all columns are numbers, and types whole ones", path, 0, 0,
                "leave out " + setting_name("distribute") + ", or convert the file: bihive convert FILE -o set.npy"};
 }
 
@@ -69,7 +69,7 @@ UnknownRadii unknown_radii_of_whole(const RawSpheres& chunk, const Counts& spher
   return whole;
 }
 
-// The worst of all ranks, the first of equal ones.
+// The worst error of all ranks, the first of equal ones.
 RoundingLoss loss_of_whole(const RoundingLoss& own, Communicator& ranks) {
   RoundingLoss whole;
   for (const RoundingLoss& one : ranks.all_gather_value(own)) {
@@ -102,7 +102,7 @@ Result<ReadChunk> read_chunk(const std::string& path, const ReadOptions& options
   const Counts spheres = sum_over_ranks(static_cast<std::int64_t>(steps.raw().size()), ranks);
   if (Status status = steps.begin(spheres.before, spheres.all); !status) return status.error();
 
-  // Radii, and the middle.
+  // Radii, and the centre.
   if (ranks.all_reduce_max(steps.has_radii() ? 1 : 0) == 0)
     steps.fill_radii(unknown_radii_of_whole(steps.raw(), spheres, ranks));
   if (Status status = steps.apply_options(); !status) return status.error();
@@ -132,7 +132,7 @@ void take_whole_range(const SphereSet& chunk, ColourBy& how, Communicator& ranks
   const std::optional<std::pair<double, double>> own = number_range(chunk, how);
   std::vector<double> ends = own ? std::vector<double>{-own->first, own->second} : std::vector<double>{kNone, kNone};
   ranks.all_reduce_max(ends);
-  // Equal ends are those of each rank too, and a stated range needs an extent.
+  // If the ends are equal, they are so on each rank too, and a stated range needs an extent.
   if (-ends[0] < ends[1]) how.range.emplace(-ends[0], ends[1]);
 }
 

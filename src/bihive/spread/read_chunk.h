@@ -1,4 +1,4 @@
-// A file's spheres, of which each rank reads a chunk, and what is true of the whole set.
+// Reads a file's spheres in chunks, one per rank, with facts about the whole set.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +26,11 @@ struct ReadChunk {
   SphereSet::Bounds whole_bounds;
 };
 /// For all ranks at the same time. `options`: those of radii and `recenter` alone. Errors as read_spheres(), on the
-/// ranks that meet them, and if ranks see files of different shapes, sizes or contents, as far as samples tell.
+/// ranks that meet them, and if ranks see files of different shapes, sizes or contents, as far as samples show.
 Result<ReadChunk> read_chunk(const std::string& path, const ReadOptions& options, Communicator& ranks);
 
-/// Gives the colours an open range of the whole set. For all ranks at the same time. `chunk`: the spheres of this rank.
+/// Sets open ranges of the colours from the whole set. For all ranks at the same time. `chunk`: the spheres of this
+/// rank.
 void take_whole_range(const SphereSet& chunk, ColourBy& how, Communicator& ranks);
 
 /// frame_picture() for the spheres of all ranks, at the same time. `chunk`: the scene with the spheres of this rank,

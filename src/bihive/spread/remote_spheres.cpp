@@ -13,7 +13,7 @@ constexpr double kFarthest = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-// The ranks on the way of each ray.
+// The ranks that each ray may meet.
 void RemoteSpheres::find_ways(const RaySpan& rays) {
   ways_.clear();
   const auto count = static_cast<std::size_t>(rays.count);
@@ -40,7 +40,7 @@ RemoteSpheres::RaysOfRank& RemoteSpheres::rays_of(int rank) {
   return asked_[static_cast<std::size_t>(number)];
 }
 
-// A sphere that the ray leaves lies on one rank, with all that coincide with it.
+// The sphere on which a ray starts is on one rank, with all that coincide with it.
 void RemoteSpheres::choose(const RaySpan& rays, std::int64_t ray, int rank) {
   RaysOfRank& asked = rays_of(rank);
   asked.chosen.push_back(ray);
@@ -82,7 +82,7 @@ RaySpan RemoteSpheres::rays_here(const RaySpan& rays, const RaysOfRank& asked) {
   return batch_.span();
 }
 
-// Asks what was chosen, and calls use(rays of a rank, span of them here or null, answer or null) for each rank.
+// Sends the chosen rays, and calls use(rays of a rank, span of them here or null, answer or null) for each rank.
 template <class Use>
 void RemoteSpheres::ask(QuestionKind kind, WhichSpheres which, RayOrder order, const RaySpan& rays, const Use& use) {
   std::vector<RankChannel::Question> questions;
@@ -113,7 +113,7 @@ void RemoteSpheres::ask(QuestionKind kind, WhichSpheres which, RayOrder order, c
   asked_.clear();
 }
 
-// Fetches the spheres of these addresses that were not seen yet.
+// Fetches those spheres at these addresses that are not yet known.
 void RemoteSpheres::know(const std::vector<Address>& addresses) {
   std::vector<std::vector<Address>> unknown;
   std::vector<Address> ordered;

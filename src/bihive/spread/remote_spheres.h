@@ -1,4 +1,4 @@
-// Rays of one thread, asked on the ranks whose spheres they may meet.
+// Traces the rays of one thread on the ranks whose spheres they may meet.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace bihive {
 
-/// A ray goes to the ranks whose boxes it meets, the nearest first, and ends where its nearest hit so far is. Of all
-/// hits at one t the smallest id in the whole set wins; so the answer is that of one process that has all spheres.
+/// A ray goes to the ranks whose boxes it meets, the nearest first, and ends at its current nearest hit. Of all hits at
+/// one t the smallest id in the whole set wins; so the answer is that of one process with all spheres.
 class RemoteSpheres final : public RemoteEngine {
  public:
   /// `here`: this rank's spheres. All must outlive it.
@@ -34,11 +34,11 @@ class RemoteSpheres final : public RemoteEngine {
     std::int64_t whole_id;
     Address address;
   };
-  // The rays that a rank is asked in one round.
+  // The rays sent to a rank in one round.
   struct RaysOfRank {
     int rank;
     std::vector<std::int64_t> chosen;
-    std::vector<Place> places;         // of the spheres that they leave
+    std::vector<Place> places;         // of the spheres on which they start
     std::vector<std::int64_t> ghosts;  // as in ChosenRays
   };
 
@@ -59,9 +59,9 @@ class RemoteSpheres final : public RemoteEngine {
 
   // State of the current query.
   std::vector<RankOnWay> ways_;    // ray after ray
-  std::vector<std::size_t> next_;  // of each ray: the next rank in ways_, and where its ranks end
+  std::vector<std::size_t> next_;  // per ray: the next rank in ways_, and the end of its ranks
   std::vector<std::size_t> end_;
-  std::vector<double> ends_;                  // of each ray: where it ends by now
+  std::vector<double> ends_;                  // per ray: its current end
   std::vector<RaysOfRank> asked_;             // of this round
   std::vector<std::int32_t> number_of_rank_;  // in asked_, or -1
   RayBatch batch_;

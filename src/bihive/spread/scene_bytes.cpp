@@ -57,7 +57,7 @@ SettingValue value_of_kind(std::size_t kind) {
   return value_of_kind(kind, std::make_index_sequence<std::variant_size_v<SettingValue>>());
 }
 
-// Structs of numbers alone go as they are.
+// Structs of numbers are copied as they are.
 template <class A, class T>
 requires std::is_trivially_copyable_v<T>
 void transfer(A& archive, T& value) {
@@ -110,7 +110,7 @@ template <class A>
 void transfer(A& archive, ColourBy& by) {
   all(archive, by.attribute, by.map, by.range, by.logarithmic, by.nan_colour);
 }
-// Rows that are parts come before the row that says whether there is something to be a part of.
+// Rows of members come before the row that says whether their object is present.
 template <class A>
 void transfer(A& archive, PictureSettings& picture) {
   const auto rows = picture_parameters();

@@ -1,4 +1,4 @@
-// A scene without its spheres, and how it is drawn, as bytes for other processes.
+// Serializes a scene without its spheres, and its settings, for other processes.
 #pragma once
 
 #include "bihive/scene/render_settings.h"
@@ -7,8 +7,8 @@
 
 namespace bihive {
 
-/// All that Scene and RenderSettings say, but for the columns that have an entry for each sphere (named columns without
-/// their entries) and the copies of a replicated set.
+/// All of Scene and RenderSettings except the columns with an entry per sphere (named columns without their entries)
+/// and the copies of a replicated set.
 void put_scene(const Scene& scene, const RenderSettings& settings, Bytes& bytes);
 void take_scene(ByteReader& bytes, Scene& scene, RenderSettings& settings);
 

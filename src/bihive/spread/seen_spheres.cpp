@@ -19,7 +19,7 @@ SeenSpheres::SeenSpheres(Scene shell, const SphereColumns& has, const Bytes& pro
   proxies_ = scene_.spheres.size();
 }
 
-// People know a sphere by its number in the whole set.
+// Users know a sphere by its id in the whole set.
 void SeenSpheres::append(ByteReader& packed) {
   append_spheres(packed, has_, scene_, whole_ids_);
   std::vector<std::int64_t>& known = scene_.id_in_input;

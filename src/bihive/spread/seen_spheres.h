@@ -1,4 +1,4 @@
-// The spheres of other ranks that a thread which draws knows: those that its rays have met.
+// A drawing thread's cache of other ranks' spheres: those that its rays have met.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct Address {
   Place place;
 };
 
-/// The scene has as its spheres those that stand for the whole set (spread/proxies.h), then those that were seen, in
-/// the order in which they came. Their ids here mean nothing elsewhere.
+/// The scene's spheres are the proxies (spread/proxies.h), then those that were seen, in order of arrival. Their ids
+/// are valid in this scene alone.
 class SeenSpheres {
  public:
   /// `shell`: the scene without spheres.
@@ -27,12 +27,12 @@ class SeenSpheres {
 
   const Scene& scene() const { return scene_; }
 
-  /// The id here of a sphere, or kNothing if it is new.
+  /// The local id of a sphere, or kNothing if it is new.
   std::int64_t id_of(Address address) const;
-  /// Where the sphere of an id here lies. rank -1: it only stands for others, or the id is no sphere's.
+  /// The address of the sphere with a local id. rank -1: a proxy, or not a sphere.
   Address address_of(std::int64_t id) const;
   std::int64_t whole_id_of(std::int64_t id) const { return whole_ids_[static_cast<std::size_t>(id)]; }
-  /// Adds packed spheres that are new, which lie at these addresses.
+  /// Adds new packed spheres, with their addresses.
   void add(const std::vector<Address>& addresses, ByteReader& packed);
   /// Forgets all that was seen.
   void forget();
@@ -51,7 +51,7 @@ class SeenSpheres {
   std::vector<std::int64_t> whole_ids_;
   std::int64_t proxies_ = 0;
   std::vector<Address> addresses_;  // of each sphere that was seen
-  // A table with open addresses: ids by key.
+  // A hash table with open addressing: ids by key.
   struct Slot {
     std::uint64_t key;
     std::int64_t id;

@@ -1,4 +1,4 @@
-// All that a scene knows of some of its spheres, as bytes for other processes.
+// Serializes everything a scene knows about some of its spheres, for other processes.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace bihive {
 
-/// Which columns a whole set has. A process that has none of its spheres cannot tell from its own arrays.
+/// The columns of a whole set. A process without any of its spheres cannot tell from its own arrays.
 struct SphereColumns {
   bool element = false, type = false, colour = false, opacity = false, outline = false, crease = false, clips = false;
   bool material = false, meaning = false, input_id = false;  ///< of Scene: material, coloured_by, id_in_input
 
-  /// Of a scene that has all its spheres.
+  /// The columns of a scene with all its spheres.
   static SphereColumns of(const Scene& scene);
 };
 
-/// Appends the spheres of these ids to the bytes. `whole_ids`: of each sphere its id in the whole set; empty: the
-/// set is whole. Of a set with images its stored spheres.
+/// Appends the spheres of these ids to the bytes. `whole_ids`: the id of each sphere in the whole set; empty: the set
+/// is whole. For a set with images its stored spheres.
 void pack_spheres(const Scene& scene, const SphereColumns& has, const std::vector<std::int64_t>& whole_ids,
                   const std::vector<std::int64_t>& ids, Bytes& bytes);
 

@@ -15,7 +15,7 @@ std::uint64_t cell_along(float place) {
   return static_cast<std::uint64_t>(std::clamp(cell, 0.0, kCells - 1));
 }
 
-// Two zero bits behind each of the lower 21 bits.
+// Two zero bits after each of the lower 21 bits.
 std::uint64_t spread_bits(std::uint64_t bits) {
   bits = (bits | bits << 32) & 0x001F00000000FFFF;
   bits = (bits | bits << 16) & 0x001F0000FF0000FF;
@@ -24,7 +24,7 @@ std::uint64_t spread_bits(std::uint64_t bits) {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
-// Bits that ascend with the number. -0 and 0 are one place.
+// Bits that ascend with the number. -0 and 0 are equal.
 std::uint32_t ordered_bits(float number) {
   number += 0.0F;
   std::uint32_t bits = 0;

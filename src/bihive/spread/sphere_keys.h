@@ -1,4 +1,5 @@
-// The spheres of one rank: those between two keys along a Morton curve, so that a rank's spheres are neighbours.
+// Divides spheres among ranks: each has those between two keys along a Morton curve, so that a rank's spheres are
+// neighbours.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace bihive {
 
-/// The place of a centre along the curve through 2^63 cells of [-1, 1]^3, then the centre itself. Equal centres have
+/// The position of a centre along the curve through 2^63 cells of [-1, 1]^3, then the centre itself. Equal centres have
 /// equal keys, and no others do. So spheres that coincide, which share one surface (geometry/scaled_ray.h), always lie
 /// on one rank.
 struct SphereKey {
@@ -25,9 +26,9 @@ struct SphereKey {
 SphereKey key_of(float x, float y, float z);
 SphereKey key_of(const SphereSet& spheres, std::int64_t id);
 
-/// Where ranks begin: rank k has the keys from starts[k - 1] on, and before starts[k]. `samples`: of all spheres, in
-/// any order; the ranks get about as many of them each. One key fewer than ranks. Ranks may get nothing: where there
-/// are fewer keys than ranks.
+/// The first keys of ranks: rank k has the keys from starts[k - 1] on, and before starts[k]. `samples`: of all spheres,
+/// in any order; the ranks get about as many of them each. One key fewer than ranks. With fewer keys than ranks, some
+/// ranks get nothing.
 std::vector<SphereKey> starts_of_ranks(std::vector<SphereKey> samples, int ranks);
 int rank_of(const SphereKey& key, const std::vector<SphereKey>& starts);
 

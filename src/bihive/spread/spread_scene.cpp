@@ -21,18 +21,18 @@
 namespace bihive {
 namespace {
 
-// The spheres are shared out by samples, at least so many for each rank: then the largest of a thousand ranks has some
-// 10 % more spheres than the mean.
+// Minimum samples per rank by which the spheres are divided: then the largest of a thousand ranks has some 10 % more
+// spheres than the mean.
 constexpr std::int64_t kSamplesOfAll = 1 << 16;
 constexpr std::int64_t kFewestSamples = 1 << 10;
 
 // Spheres that a rank sends at a time, so that little memory is in use twice.
 constexpr std::int64_t kSpheresAtOnce = 1 << 18;
 
-// A thread forgets what it saw when it was so much.
+// Maximum size of a thread's cache of seen spheres, which is then emptied.
 constexpr std::int64_t kMostSeen = 1 << 22;
 
-// The columns that some rank's spheres have.
+// The columns that the spheres of any rank have.
 SphereColumns columns_of_all(const Scene& scene, Communicator& ranks) {
   SphereColumns has;
   for (const SphereColumns& one : ranks.all_gather_value(SphereColumns::of(scene))) {
@@ -45,8 +45,8 @@ SphereColumns columns_of_all(const Scene& scene, Communicator& ranks) {
   return has;
 }
 
-// The first key of each rank, from samples of all spheres at even distances. Rank 0 alone looks at them: there may be
-// more than another rank has spheres.
+// The first key of each rank, from evenly spaced samples of all spheres. Rank 0 alone examines them: there may be more
+// than another rank has spheres.
 std::vector<SphereKey> common_starts(const SphereSet& spheres, std::int64_t whole_size, Communicator& ranks) {
   const std::int64_t samples_of_all = std::max(kSamplesOfAll, kFewestSamples * ranks.size());
   const std::int64_t step = std::max<std::int64_t>(1, whole_size / samples_of_all);
@@ -107,8 +107,8 @@ SomeSpheres sent(SomeSpheres had, const std::vector<SphereKey>& starts, const Sp
   return got;
 }
 
-// Ghost spheres. Where clips cut spheres, the surface that a ray leaves may also be a cap of a remote sphere, which
-// lies in the same plane or on the same ball as one here: each rank knows all cut spheres, and those that equal a clip.
+// Ghost spheres. With cut spheres, the surface on which a ray starts may also be a cap of a remote sphere, in the same
+// plane or on the same ball as a local one: each rank knows all cut spheres, and those that equal a clip.
 std::vector<std::int64_t> possible_ghosts(const Scene& scene) {
   std::vector<std::int64_t> ids;
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
@@ -124,7 +124,7 @@ std::vector<std::int64_t> possible_ghosts(const Scene& scene) {
   return ids;
 }
 
-// Adds the spheres of other ranks that matter here. Returns how many spheres were there before.
+// Adds the spheres of other ranks that matter here. Returns the previous number of spheres.
 std::int64_t add_ghosts(SomeSpheres& own, const SphereColumns& has, const Scene& shell, Communicator& ranks) {
   const std::int64_t count = own.scene.spheres.size();
   if (!has.clips || shell.clips.empty()) return count;
@@ -138,7 +138,7 @@ std::int64_t add_ghosts(SomeSpheres& own, const SphereColumns& has, const Scene&
     append_spheres(reader, has, ghosts.scene, ghosts.whole_ids);
   }
   sort_by_whole_id(ghosts, has);
-  // Without a cut sphere anywhere all spheres are whole or gone.
+  // Without a cut sphere, all spheres are whole or removed.
   const bool here = cut_set_of(own.scene) != nullptr;
   if (!here && cut_set_of(ghosts.scene) == nullptr) return count;
   packed.clear();
@@ -161,7 +161,7 @@ Bytes common_proxies(const SomeSpheres& own, const RenderSettings& settings, con
     append_spheres(reader, has, all.scene, all.whole_ids);
   }
   sort_by_whole_id(all, has);
-  // Many ranks have many; those that stand for them stand for all.
+  // Many ranks have many proxies; the proxies of these represent all.
   Bytes together;
   pack_spheres(all.scene, has, all.whole_ids, proxies_of(all.scene, settings), together);
   return together;
@@ -253,7 +253,7 @@ Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const 
   const std::vector<SphereKey> starts = common_starts(scene.spheres, all.whole_size, ranks);
   SomeSpheres own = sent({std::move(scene), std::move(whole_ids)}, starts, all.has, all.shell, ranks);
 
-  // Tell all of what is here, and build.
+  // Exchange the boxes, and build.
   all.proxies = common_proxies(own, settings, all.has, all.shell, ranks);
   all.boxes = std::make_unique<RankBoxes>(ranks.all_gather_value(box_of(own.scene.spheres)), all.shell.spheres.scale());
   const std::int64_t count = add_ghosts(own, all.has, all.shell, ranks);

@@ -17,7 +17,7 @@ constexpr double kPlotWidth = kDiagramWidth - kLeft - kRight;
 constexpr double kCharacter = 6.6;  // mean width of a character of 12 units
 constexpr double kMarker = 4.2;
 
-// From pale to deep blue, in equal steps of sRGB.
+// Shades from pale to deep blue, in equal steps of sRGB.
 std::string colour_of(int wins, int most) {
   const double part = most == 0 ? 0 : static_cast<double>(wins) / most;
   const auto mix = [part](double pale, double deep) {
@@ -83,7 +83,7 @@ class Diagram {
       }
   }
 
-  // The edges between cells that belong and cells that do not.
+  // The edges between cells of the region and others.
   void outline(const char* style, const std::function<bool(std::size_t)>& belongs) {
     std::string path;
     const auto at = [&](std::size_t row, std::size_t column) {
@@ -120,7 +120,7 @@ class Diagram {
                          kTop + kPlotHeight / 2, "a leaf costs, in inner nodes");
   }
 
-  // At the edge, with its numbers, where it lies outside.
+  // Drawn at the edge, with its numbers, if it lies outside.
   void mark(const CostPoint& point) {
     const auto inner_within = [this](double inner) {
       return x_of(std::clamp(inner, data_.inner.front(), data_.inner.back()));
@@ -139,7 +139,7 @@ class Diagram {
     body_ += fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {}</title></circle>",
                          x, y, kMarker, escape_html(point.name), numbers);
 
-    // Its name: below other names that stand there already, and near the axis above them.
+    // Place its name below names already there, or above them near the axis.
     const std::string name = outside ? point.name + " (" + numbers + ")" : point.name;
     const double width = kCharacter * static_cast<double>(name.size());
     const bool to_the_left = x + 8 + width > kDiagramWidth - kRight;

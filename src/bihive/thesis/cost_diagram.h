@@ -1,4 +1,4 @@
-// The diagram of Figure 4.4: at which costs which tree wins.
+// The diagram of Figure 4.4: the costs at which each tree wins.
 #pragma once
 
 #include <string>
@@ -15,21 +15,21 @@ struct CostPoint {
 };
 
 struct CostDiagram {
-  std::string title, wins_label;  ///< of the picture, and of the legend of colours
+  std::string title, wins_label;  ///< of the picture and of its legend
   std::string pattern_label, share_label;
-  std::vector<double> inner;  ///< a column each, evenly spaced on a logarithmic axis, from low to high
-  std::vector<double> leaf;   ///< a row each, evenly spaced, from low to high
+  std::vector<double> inner;  ///< one per column, ascending, evenly spaced on a logarithmic axis
+  std::vector<double> leaf;   ///< one per row, ascending, evenly spaced
   /// Row by row: the configurations that the tree wins; whether the whole pattern holds; the share of the seeds with
   /// which it does (empty without other seeds).
   std::vector<int> wins;
   std::vector<bool> pattern;
   std::vector<double> share;
   int most_wins = 9;
-  std::vector<CostPoint> points;  ///< those outside the axes stand at the edge, with their numbers
+  std::vector<CostPoint> points;  ///< those outside the axes are drawn at the edge, with their numbers
 };
 
-/// An SVG text: colours for wins, an outline around the pattern, a dashed one where half of the seeds have it, a point
-/// with error bars for each engine.
+/// An SVG text: colours for wins, an outline around the pattern, a dashed one where half of the seeds have it, and a
+/// point with error bars for each engine.
 std::string cost_diagram_svg(const CostDiagram& diagram);
 std::string_view cost_diagram_style();  ///< its CSS: thesis/figure-4.4/costs.css
 

@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-12;
 
 bool is_fastest(const WorkByTree& trees, std::int64_t max_prims, const WinPattern& pattern, const StepCosts& costs) {
   const auto mine = trees.find(max_prims);
-  if (mine == trees.end()) return false;  // it was not counted
+  if (mine == trees.end()) return false;  // not counted
   const StepCosts of_tree{costs.inner, costs.leaf, 0};
   return std::all_of(pattern.among.begin(), pattern.among.end(), [&](std::int64_t other) {
     const auto found = trees.find(other);
@@ -39,7 +39,7 @@ std::set<double> changes_of(const FigureWork& work, const WinPattern& pattern, d
   return found;
 }
 
-// Appends, and joins what touches the last one.
+// Appends a range; merges it with the last one if they touch.
 void append(std::vector<CostRange>& ranges, const CostRange& next) {
   if (!ranges.empty() && ranges.back().high == next.low)
     ranges.back().high = next.high;
@@ -52,7 +52,8 @@ constexpr std::size_t kUnknowns = 4;
 using Row = std::array<double, kUnknowns>;
 using Matrix = std::array<Row, kUnknowns>;
 
-// By Gauss and Jordan; the matrix is symmetric and positive, so the diagonal serves as pivot. False if it is singular.
+// Gauss-Jordan elimination; the matrix is symmetric and positive, so the diagonal serves as pivot. False if it is
+// singular.
 bool invert(Matrix a, Matrix& result) {
   for (std::size_t pivot = 0; pivot < kUnknowns; ++pivot) {
     if (!(std::abs(a[pivot][pivot]) > 1e-14)) return false;
@@ -75,7 +76,7 @@ struct Solution {
   double residual = kInfinity;
 };
 
-// The best one with these costs alone; the others are 0. An infinite residual: there is none without a negative cost.
+// The best solution with these costs alone; the others are 0. Infinite residual: every solution has a negative cost.
 Solution solve(const std::vector<Row>& rows, const std::array<bool, kUnknowns>& used) {
   Solution one;
   Matrix normal{};

@@ -1,7 +1,7 @@
-// A frame's time without a clock: the work of its rays, counted, times what each kind of step costs.
+// A model of a frame's time: the counted work of its rays, times the cost of each kind of step.
 //
-// A leaf is charged apart from its spheres. Which tree is the fastest depends on two ratios alone: what an inner node
-// costs in sphere tests, and what a leaf costs in inner nodes.
+// A leaf is charged separately from its spheres. Which tree is the fastest depends on two ratios alone: the cost of an
+// inner node in sphere tests, and the cost of a leaf in inner nodes.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ struct RayWork {
 /// Costs of the steps of a ray.
 struct StepCosts {
   double inner = 1;  ///< an inner node, in sphere tests; >= 0
-  double leaf = 0;   ///< a leaf apart from its spheres, in inner nodes; >= 0
-  double fixed = 1;  ///< everything that no tree takes away, in sphere tests per ray; >= 0
+  double leaf = 0;   ///< a leaf without its spheres, in inner nodes; >= 0
+  double fixed = 1;  ///< everything that no tree saves, in sphere tests per ray; >= 0
 
-  /// Of one ray, in sphere tests.
+  /// Cost of one ray, in sphere tests.
   double of(const RayWork& work) const { return fixed + inner * (work.inner + leaf * work.leaves) + work.tests; }
 };
 
@@ -48,7 +48,7 @@ using EngineTimes = std::map<Configuration, ConfigurationTimes>;
 /// Frames per second by the median of the rounds.
 double frames_per_second(const std::vector<double>& frame_ms);
 
-/// The text's pattern: one MAX_PRIMS wins exactly so many configurations, and another one wins a certain configuration.
+/// The text's pattern: one MAX_PRIMS wins an exact number of configurations, and another wins a certain configuration.
 struct WinPattern {
   std::int64_t max_prims = 0, wins = 0;
   Configuration exception;
@@ -62,13 +62,13 @@ std::int64_t wins_of(const FigureWork& work, const WinPattern& pattern, const St
 /// Whether the whole pattern holds.
 bool pattern_holds(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs);
 
-/// From low to high.
+/// Ascending bounds.
 struct CostRange {
   double low = 0, high = std::numeric_limits<double>::infinity();
 };
 
-/// How the pattern's tree fares at a leaf's cost, over all costs of an inner node. The bounds are exact: between two
-/// costs at which two trees are equal nothing changes.
+/// The results of the pattern's tree at a leaf's cost, over all costs of an inner node. The bounds are exact: between
+/// two costs at which two trees are equal nothing changes.
 struct WinsByCost {
   std::int64_t most = 0;           ///< configurations won at most
   std::vector<CostRange> stated;   ///< where it wins as many as the pattern says
@@ -89,8 +89,8 @@ struct FittedCosts {
   /// "_error".
   std::vector<std::pair<const char*, double>> named() const;
 };
-/// `ns_per_ms`: nanoseconds per ray and thread that a millisecond of a frame's time stands for. Nothing fits (`frames`
-/// is 0) with fewer than eight frames, or where a sphere test costs nothing.
+/// `ns_per_ms`: nanoseconds per ray and thread in a millisecond of a frame's time. No fit (`frames` is 0) with fewer
+/// than eight frames, or if a sphere test costs nothing.
 FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, double ns_per_ms);
 
 }  // namespace bihive

@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeastInner = 0.25, kMostInner = 16, kMostLeaf = 1;
 constexpr int kColumns = 120, kRows = 51;
 
-// Means per ray; of no use once it was cancelled.
+// Means per ray; meaningless after cancellation.
 RayWork counted_work(const Scene& scene, const Tree& tree, const FrameRatePlan& plan, int stride,
                      const CancelToken* cancel) {
   const PixelRays pixels(scene.camera, plan.width_px, plan.height_px);

@@ -1,5 +1,5 @@
-// Figure 4.4 by counted work: what its primary rays do in each tree, what the steps cost by measured frames, and the
-// diagram of who wins at which costs. For `bihive thesis` and for the page.
+// Figure 4.4 by counted work: the steps of its primary rays in each tree, the cost of each step by measured frames, and
+// the diagram of the winner by cost. For `bihive thesis` and for the page.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace bihive {
 
 /// Counts the primary rays of a plan's picture, of every `stride`-th row and column alone: their means in the trees of
-/// the plan's MAX_PRIMS, in all its configurations. A MAX_PRIMS that no leaf reaches stands for a single leaf, and
+/// the plan's MAX_PRIMS, in all its configurations. A MAX_PRIMS that no leaf reaches means a single leaf, and is stored
 /// under the number of spheres. Error: "cancelled", or there is no such scenario.
 Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel = nullptr);
 

@@ -12,8 +12,8 @@ namespace bihive {
 namespace {
 
 constexpr int kQuickDivisor = 4;
-constexpr std::int64_t kLargestNumber = 65536;  // of pixels along a side, and of recursions
-// Time between two looks at the cancel token. Without a token a frame is drawn without a break.
+constexpr std::int64_t kLargestNumber = 65536;  // pixels along a side, and recursions
+// Time between two checks of the cancel token. Without a token a frame is drawn without a break.
 constexpr double kSliceMs = 100, kWholeFrameMs = 1e9;
 
 Error bad_value(const char* name, const char* expected) {

@@ -3,7 +3,7 @@
 //
 // A frame is the shaded view of primary rays. It is the same for all contestants; only the search for hits differs. The
 // contestants of a configuration take turns, round by round. The first round warms up and does not count. The
-// measurement goes in small steps, so that its caller can show progress and stop it.
+// measurement proceeds in small steps, so that its caller can show progress and stop it.
 #pragma once
 
 #include <algorithm>
@@ -40,13 +40,13 @@ struct FrameRatePlan {
 
   /// The thesis's plan, from the values of Figure 4.4. Error: a value is missing there.
   static Result<FrameRatePlan> from_values(const StatedValues& values);
-  /// A part of the width and height.
+  /// A fraction of the width and height.
   FrameRatePlan smaller(int divisor) const;
-  /// A quarter of the width and height and a single round: seconds instead of minutes, and rougher numbers.
+  /// A quarter of the width and height and a single round: seconds instead of minutes, with less precise numbers.
   FrameRatePlan quickly() const;
-  /// The largest pictures, a whole part of this plan's in width and height, with which the whole run takes about
+  /// The largest pictures, an integer fraction of this plan's in width and height, with which the whole run takes about
   /// `seconds` or less on this engine; at least an eighth. A few small frames by brute force are measured for that.
-  /// Then the run ends also on a slow graphics processor.
+  /// So the run ends even on a slow GPU.
   Result<FrameRatePlan> within(double seconds, const FrameEngine& engine) const;
 
   /// Error: there is no such scenario.
@@ -55,7 +55,7 @@ struct FrameRatePlan {
   int configurations() const;
 };
 
-/// An engine with a tree, and its brute force: the same code without a tree, or with one leaf if it cannot do without.
+/// An engine with a tree, and its brute force: the same code without a tree, or with a single leaf if it needs one.
 struct FrameEngine {
   Engine tree = Engine::reference, brute = Engine::brute;
   TreeParameters brute_parameters = {};
@@ -73,12 +73,12 @@ struct MeasuredRate {
 /// The same times by configuration.
 EngineTimes times_of(const std::vector<MeasuredRate>& rates);
 
-/// The configurations of a plan, one after the other. The engine's renderer must outlive the run.
+/// Measures the configurations of a plan in turn. The engine's renderer must outlive the run.
 class FrameRateRun {
  public:
   FrameRateRun(FrameRatePlan plan, const FrameEngine& engine);
 
-  /// Before the first step: goes on after the complete rates of an earlier run of the same plan. Rates that are not
+  /// Before the first step: continues after the complete rates of an earlier run of the same plan. Rates that are not
   /// whole groups in the order of the plan, with all rounds, are left out, and measured again.
   void resume(const std::vector<MeasuredRate>& rates);
 
@@ -91,7 +91,7 @@ class FrameRateRun {
 
   bool finished() const { return finished_; }
   double done() const { return finished_ ? 1 : done_cost_ / all_cost_; }  ///< 0 to 1, a share of the whole time
-  double seconds_left() const;  ///< estimated from this run's rounds so far; 0 before the first
+  double seconds_left() const;  ///< estimated from this run's finished rounds; 0 before the first
   const FrameRatePlan& plan() const { return plan_; }
   /// The complete ones, in the order of scenarios, spheres, brute force before trees.
   const std::vector<MeasuredRate>& rates() const { return rates_; }

@@ -58,7 +58,7 @@ std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, 
   if (!has_values(chart.series.front())) return "";
   chart.logarithmic = true;
 
-  // Add the thesis's values, if it states any. It says that brute force does not depend on the scenario. A smaller
+  // Add the thesis's values, if it states any. It states that brute force does not depend on the scenario. A smaller
   // picture has other rates.
   const auto is = [&](const char* name, std::int64_t wanted) {
     return stated_number(stated, name) == static_cast<double>(wanted);
@@ -108,7 +108,7 @@ double drift_of(const std::vector<MeasuredRate>& rates) {
 }
 
 Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues& values, int threads) {
-  // Every fourth row and column says enough of means. The picture is the thesis's, whatever the size of the run's.
+  // Every fourth row and column is enough for means. The picture is the thesis's, whatever the size of the run's.
   constexpr int kStride = 4;
   const Result<FrameRatePlan> whole = FrameRatePlan::from_values(values);
   if (!whole) return whole.error();

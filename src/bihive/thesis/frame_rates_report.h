@@ -26,15 +26,15 @@ struct MeasuringDevice {
   std::vector<std::pair<std::string, std::string>> facts = {};
 };
 
-/// The time of the last round over that of the first: the median of all rates with two rounds or more, 1 without any. A
-/// device that grows hot and slow has more than 1.
+/// The time of the last round over that of the first: the median of all rates with two rounds or more, 1 without any.
+/// Above 1 on a device that slows down as it heats up.
 double drift_of(const std::vector<MeasuredRate>& rates);
 
-/// What the steps of a ray cost here, by the frames of a complete run, and what the text says of its own.
+/// The cost of the steps of a ray here, by the frames of a complete run, and what the text states.
 struct MeasuredCosts {
   FigureWork work;        ///< of the plan's trees
   WinPattern pattern;     ///< the text's
-  FittedCosts fitted;     ///< `frames` is 0 where nothing fits
+  FittedCosts fitted;     ///< `frames` is 0 without a fit
   std::int64_t wins = 0;  ///< configurations that the text's winner wins at these costs
 };
 /// Counts the work of a complete run's trees; takes about a second. `threads`: that draw; the graphics processor
@@ -50,18 +50,18 @@ Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
                              const MeasuringDevice& device, const MeasuredCosts* costs = nullptr);
 
-/// What FrameRateRun::resume() needs of such a text.
+/// Extracts from such a text what FrameRateRun::resume() needs.
 struct SavedFrameRates {
   std::string engine;
   int width_px = 0, height_px = 0, rounds = 0;
   bool quick = false;
   std::vector<MeasuredRate> rates;
 };
-/// Nothing if the text is no such result.
+/// Nothing if the text is not such a result.
 std::optional<SavedFrameRates> saved_frame_rates(const std::string& json);
 
 /// SVG texts: the gains over brute force beside the stated ones, then the frame rates of each scenario beside the few
-/// that the thesis states. `here` names this device in the legend. With `costs` the diagram of who wins at which costs
+/// that the thesis states. `here` names this device in the legend. With `costs`, the diagram of the winner by cost
 /// comes first, with this device as a point.
 std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const StatedValues& values,
                                             const std::string& here, const MeasuredCosts* costs = nullptr);

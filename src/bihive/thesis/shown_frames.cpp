@@ -11,7 +11,7 @@
 namespace bihive {
 namespace {
 
-// The camera, turned around the vertical axis through what it looks at.
+// The camera, turned around the vertical axis through its look-at point.
 Camera turned(const Camera& camera, double turns) {
   const auto [s, c] = sine_cosine_deg(360 * turns);
   const Vec3d from = camera.eye - camera.look_at;
@@ -45,13 +45,13 @@ ShownFrames::ShownFrames(ShownFramesPlan plan) : plan_(std::move(plan)) {
         for (const bool turning : {false, true}) rates_.push_back({scenario, spheres, max_prims, turning, 0, 0});
 }
 
-// Makes scene and tree of the current measurement, unless they are there.
+// Makes scene and tree of the current measurement, unless they exist.
 Status ShownFrames::prepare() {
   if (prepared_ == next_) return Done{};
   const ShownRate& rate = rates_[next_];
   Result<Scene> scene = plan_.scene(rate.scenario, rate.spheres);
   if (!scene) return scene.error();
-  // The tracer refers to the spheres of the scene where it stays.
+  // The tracer refers to the spheres of the stored scene.
   tracer_.reset();
   scene_ = std::move(*scene);
   BuildParameters parameters;
@@ -91,7 +91,7 @@ void ShownFrames::shown(double now_ms) {
   if (finished()) return;
   if (!warm_since_ms_) warm_since_ms_ = now_ms;
   if (!since_ms_) {
-    // The last frame before the time begins is its start, and does not count.
+    // The last warm-up frame starts the clock, and does not count.
     if (now_ms - *warm_since_ms_ >= 1000 * plan_.warm_up_seconds) since_ms_ = now_ms;
     return;
   }

@@ -1,9 +1,9 @@
-// Frames shown a second: the configurations of Figure 4.4 on a real screen, at the text's size, at rest and turning.
+// Frames shown per second: the configurations of Figure 4.4 on a real screen, at the text's size, at rest and turning.
 //
 // This class draws the pictures and keeps the times. Its caller brings each picture to the screen, and says when it is
 // there; so the window and the page measure the same thing. Each configuration is drawn twice: by the wide engine, and
-// by the tree reconstructed from the text in scalar code. At rest the same picture is drawn anew for each frame;
-// turning, the camera goes once around the scene in the time of the measurement.
+// by the tree reconstructed from the text in scalar code. At rest the same picture is drawn again for each frame;
+// turning, the camera orbits the scene once in the time of the measurement.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace bihive {
 
-/// The figure's plan without its rounds. Of MAX_PRIMS it has the one that the text calls the best.
+/// The figure's plan without its rounds. Its only MAX_PRIMS is the one that the text calls the best.
 struct ShownFramesPlan : FrameRatePlan {
-  double seconds = 2;            ///< of one measurement, at least: the last frame ends it; > 0
+  double seconds = 2;            ///< minimum duration of a measurement, which ends with a frame; > 0
   double warm_up_seconds = 0.3;  ///< before it; these frames do not count
 
-  /// Measures for so many seconds, and warms up no longer than that.
+  /// Measures for this many seconds, and warms up no longer than that.
   void measure_for(double each_seconds);
 
   /// The thesis's configurations. Error: a value is missing.
@@ -45,12 +45,12 @@ class ShownFrames {
 
   /// Draws the next picture; it stays until the next call. Call it only before finished(). An Error ends the run.
   Result<const Image*> draw();
-  /// The last picture is on the screen, at this time of any steady clock.
+  /// Reports that the last picture is on the screen, at this time of any steady clock.
   void shown(double now_ms);
 
   bool finished() const { return failed_ || next_ == rates_.size(); }
   const ShownFramesPlan& plan() const { return plan_; }
-  /// All measurements in order; those behind the current one have no frames yet.
+  /// All measurements in order; those after the current one have no frames yet.
   const std::vector<ShownRate>& rates() const { return rates_; }
   std::size_t measured() const { return next_; }
 
@@ -72,7 +72,7 @@ class ShownFrames {
   Film film_;
   Image image_;
   std::optional<double> warm_since_ms_, since_ms_;
-  double turned_ = 0;  // of the way around, 0 to 1
+  double turned_ = 0;  // fraction of the orbit, 0 to 1
 };
 
 }  // namespace bihive

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// Beyond it not every whole number is a binary64 number.
+// Above it not every whole number is a binary64 number.
 constexpr double kMostWhole = 0x1p53;
 
 bool is_value(const json& value) {
@@ -30,7 +30,7 @@ bool is_whole(double number) {
   return number == std::floor(number) && std::abs(number) <= kMostWhole;
 }
 
-// The number in "4,095" or "87.51%"; nothing for words and lists.
+// The number in "4,095" or "87.51%"; nothing for texts and lists.
 std::optional<double> number_in_print(std::string printed) {
   printed.erase(std::remove(printed.begin(), printed.end(), ','), printed.end());
   if (!printed.empty() && printed.back() == '%') printed.pop_back();
@@ -54,7 +54,7 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
   if (!parsed) return parsed.error();
   const json& document = *parsed;
   if (!document.is_object() || !document.contains("values") || !document["values"].is_object())
-    return stated.error_at("/values", "an object with one entry a value");
+    return stated.error_at("/values", "an object with one entry per value");
   for (const auto& [name, entry] : document["values"].items()) {
     if (!entry.is_object() || !entry.contains("value") || !is_value(entry["value"]))
       return stated.error_at("/values/" + name + "/value", "a number, a list of numbers, or a text");

@@ -1,6 +1,6 @@
-// The values that experiments compare with: thesis/<experiment>/values.json (builtin_values.h). Each says whose it is:
-// the text's, ours by an inference, or ours alone. The numbers that make the thesis's scenes stand in
-// scene/generators.cpp; Figure 4.1 compares what those scenes really hold with the text's numbers.
+// The values that experiments compare with: thesis/<experiment>/values.json (builtin_values.h). Each states its origin:
+// the text, an inference of ours, or ours alone. The numbers that make the thesis's scenes are in scene/generators.cpp;
+// Figure 4.1 compares the content of those scenes with the text's numbers.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ namespace bihive {
 
 /// One value of an experiment.
 struct StatedValue {
-  std::vector<double> numbers;  ///< a single number is a list of one; a text has none
+  std::vector<double> numbers;  ///< a single number is a list of one; empty for a text
   bool is_list = false;
   std::string printed;  ///< as the thesis prints it: "printed", unless that is another number; else the value as JSON
   std::string sentence;
-  /// Whose value it is. Only what is compared with "stated" can reproduce the thesis, or differ from it.
+  /// The origin of a value. Only a comparison with "stated" can reproduce the thesis, or differ from it.
   ///  - "stated": the text says it, of an outcome
   ///  - "set": the text says it, and our scenes are made with it; it can only be copied well or badly
   ///  - "fitted": the text says it, and something of ours was made to suit it: the builder, sizes, costs
@@ -33,21 +33,20 @@ struct StatedValue {
 ///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
 ///                                                    "sentence": "Nodes Internal 4,095 ..."}, ...}}
 /// "value" is a number, a list of numbers, or a text. "kind" is one of the five above. "printed" is optional.
-/// "sentence" quotes the text, or gives the reasoning where the value is not the text's. Other members are not looked
-/// at.
+/// "sentence" quotes the text, or gives the reasoning where the value is not the text's. Other members are ignored.
 class StatedValues {
  public:
-  /// Error, with file and place: the document is not as above. `file`: as errors name it.
+  /// Error, with file and location: the document is not as above. `file`: as errors name it.
   static Result<StatedValues> parse(std::string_view bytes, std::string file);
 
   bool has(const std::string& name) const { return values_.count(name) != 0; }
-  // Error, with file and place: there is no such value, or it is no number, list of numbers, whole number.
+  // Error, with file and location: there is no such value, or it is not a number, list of numbers, whole number.
   Result<StatedValue> value(const std::string& name) const;
   Result<double> number(const std::string& name) const;
   Result<std::int64_t> integer(const std::string& name) const;
   Result<std::vector<double>> numbers(const std::string& name) const;
   Result<std::vector<std::int64_t>> integers(const std::string& name) const;
-  const std::string& text() const { return text_; }  ///< the document as it was read
+  const std::string& text() const { return text_; }  ///< the document as read
 
  private:
   Error error_at(const std::string& place, const std::string& expected) const;

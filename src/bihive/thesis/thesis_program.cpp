@@ -10,8 +10,8 @@ namespace bihive {
 namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
-// Of the entry and exit distances of nodes, relative: binary32 rounds planes and tests alike, and a sphere at the edge
-// of its box must not be lost. The shader pads by as much.
+// Relative padding of the entry and exit distances of nodes: binary32 rounds planes and tests alike, and a sphere at
+// the edge of its box must not be lost. The shader pads by the same amount.
 constexpr float kPad = 0x1p-21F;
 
 struct Part {
@@ -29,8 +29,8 @@ ThesisProgram::ThesisProgram(const Scene& scene, const Tree& tree) : camera_(sce
                         static_cast<float>(set.radius(id))});
     ids_.push_back(static_cast<std::int32_t>(id));
   }
-  // A clip node has one child between two planes, a one-sided node one child beyond one plane: both become splits of
-  // which a plane lets everything or nothing through.
+  // A clip node has one child between two planes, a one-sided node one child beyond one plane: both become splits with
+  // a plane that admits everything or nothing.
   const auto scale = static_cast<float>(set.inverse_scale());
   for (const Node& node : tree.nodes) {
     ProgramNode one{node.left_clip * scale,
@@ -107,7 +107,7 @@ std::int32_t ThesisProgram::closest_by_tree(const ProgramRay& ray) const {
       for (std::int32_t i = node.first; i < node.first + node.count; ++i)
         test(ray, static_cast<std::size_t>(i), nearest);
     } else if (node.split) {
-      // Go to the near child; the other one waits.
+      // Go to the near child; push the other one.
       const bool left_is_near = over[node.axis] > 0;
       const Part left = below(part, node.axis, node.left_clip), right = above(part, node.axis, node.right_clip);
       const Part far = left_is_near ? right : left;

@@ -1,7 +1,7 @@
-// The thesis program: the search for hits as a plain program of its time would do it, to learn what its steps cost.
+// The thesis program: the search for hits as a plain program of its time would do it, to measure the cost of its steps.
 //
-// Binary32, one thread, two children a node, the steps of the shader (gl/shaders/traversal.glsl). It uses neither the
-// intersection nor the traversal of the library; the reference engine says how many of its pixels are right.
+// Binary32, one thread, two children per node, the steps of the shader (gl/shaders/traversal.glsl). It uses neither the
+// intersection nor the traversal of the library; the reference engine tells how many of its pixels are right.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Another frame of the file on show, made ready on any thread while the viewer goes on drawing the one before.
+// Prepares another frame of the shown file on any thread, while the viewer continues to draw the current one.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,11 @@
 
 namespace bihive {
 
-/// A frame in its look, with its tree: for Viewer::show_frame().
+/// A frame with its appearance and tree, for Viewer::show_frame().
 class PreparedFrame;
 
-/// The choices at the time when it was made (Viewer::frame_maker()): every frame gets the same look, and the ranges of
-/// colours by numbers that the frame on show had then. Never changes.
+/// A snapshot of the user's choices (Viewer::frame_maker()): every frame gets the same appearance, and the colour
+/// ranges of the frame shown at that time. Immutable.
 class FrameMaker {
  public:
   struct Choices;

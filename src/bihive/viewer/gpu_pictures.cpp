@@ -60,7 +60,7 @@ Status GpuPictures::make_room(int width_px, int height_px) {
   return Done{};
 }
 
-// The CPU writes them on the picture, as on its own ones. OpenGL's rows count from below.
+// The CPU draws the labels, as on its own pictures. OpenGL's rows count from below.
 Status GpuPictures::put_labels(const Scene& scene, const RenderSettings& whole) {
   std::vector<std::uint8_t> rgba(std::size_t(4) * std::size_t(width_) * std::size_t(height_));
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);

@@ -1,4 +1,4 @@
-// Pictures of the graphics processor. The last complete one is kept and shown while the next is made.
+// Pictures of the GPU. The last complete one is kept and shown while the next is drawn.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class GpuPictures {
   GpuPictures(const GpuPictures&) = delete;
   GpuPictures& operator=(const GpuPictures&) = delete;
 
-  /// Makes the pictures; begin() below starts one.
+  /// The renderer; begin() below starts a picture.
   GlRenderer& renderer() { return renderer_; }
   const GlRenderer& renderer() const { return renderer_; }
 
@@ -31,7 +31,7 @@ class GpuPictures {
   Status begin(const Scene& scene, bool new_lights, const RenderSettings& settings);
 
   /// Copies the complete passes, with the labels of `whole`, the settings of the picture in its full size
-  /// (viewer/shown_image.h); show() draws this copy from now on. Error: no room for it.
+  /// (viewer/shown_image.h); show() then draws this copy. Error: no room for it.
   Status keep(const Scene& scene, const RenderSettings& whole);
   /// Draws the kept picture, if any, stretched to the viewport.
   void show(std::uint32_t framebuffer, const GlViewport& viewport) const;

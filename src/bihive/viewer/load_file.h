@@ -1,4 +1,4 @@
-// A file into the viewer, and the rest of its frames for a player.
+// Loads a file into the viewer, and opens its other frames for a player.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct LoadedFile {
 };
 
 /// Loads the frame `options.frame` of a file of any format that bihive reads, or of its trajectory. A file of up to
-/// `whole_bytes` is read at once; of a larger one, if it is no scene file, and of a trajectory, no more
-/// than the frame and what open_frames() needs is in memory. Errors: as Viewer::load() and open_frames().
+/// `whole_bytes` is read at once; of a larger one, if it is not a scene file, and of a trajectory, only the frame and
+/// what open_frames() needs are in memory. Errors: as Viewer::load() and open_frames().
 Result<LoadedFile> load_file(Viewer& viewer, const std::string& path, const ReadOptions& options,
                              std::int64_t whole_bytes = 64'000'000);
 

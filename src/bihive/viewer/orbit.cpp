@@ -9,9 +9,9 @@
 namespace bihive {
 namespace {
 
-constexpr double kDegreesAcross = 180;       // of a turn, along the shorter side
-constexpr double kMostDegrees = 80;          // of one move: tan_deg() takes half of it
-constexpr double kLeastSine = 0.0174524064;  // between view and up, at least: 1 degree
+constexpr double kDegreesAcross = 180;       // rotation, along the shorter side
+constexpr double kMostDegrees = 80;          // per move: tan_deg() gets half of it
+constexpr double kLeastSine = 0.0174524064;  // minimum angle between view and up: 1 degree
 
 struct Angle {
   double cosine, sine;
@@ -29,7 +29,7 @@ double degrees_of(double moved_px, PictureSizePx size) {
   return std::clamp(degrees, -kMostDegrees, kMostDegrees);
 }
 
-// Right and down by one pixel at the distance of look_at. Of parallel rays, at any distance.
+// Right and down by one pixel at the distance of look_at. For parallel rays, at any distance.
 struct Steps {
   Vec3d right, down;
 };
@@ -40,7 +40,7 @@ Steps steps_of(const Camera& camera, PictureSizePx size) {
   return {distance * rays.right(), distance * rays.down()};
 }
 
-// No move of the user may lead to a camera that sees nothing.
+// No move may lead to an invalid camera.
 Camera if_good(const Camera& moved, const Camera& before) {
   return check_camera(moved) ? moved : before;
 }
@@ -93,7 +93,7 @@ Vec3d point_under(const Camera& camera, double x_px, double y_px, PictureSizePx 
 }
 
 DistanceLimits distance_limits(const Camera& camera, double diagonal) {
-  // A pixel at distance d is about d / 1000 wide, and an eye is placed in steps of its coordinates' 2^-24.
+  // A pixel at distance d is about d / 1000 wide, and an eye's coordinates have steps of 2^-24 relative.
   constexpr double kNearestByPlace = 1e-4;
   constexpr double kNearestBySize = 1e-5, kFarthestBySize = 1e4;
   const double place = std::max({std::abs(camera.look_at.x), std::abs(camera.look_at.y), std::abs(camera.look_at.z)});
@@ -112,7 +112,7 @@ Camera zoomed(const Camera& camera, double factor, Vec3d anchor, DistanceLimits 
   if (factor == 1) return camera;
   Camera moved = camera;
   if (parallel) {
-    // The eye's plane stays, so that it comes into no sphere.
+    // The eye's plane stays, so that it enters no sphere.
     const Vec3d forward = normalized(camera.look_at - camera.eye);
     const Vec3d offset = anchor - camera.look_at;
     const Vec3d shift = (1 - 1 / factor) * (offset - dot(offset, forward) * forward);

@@ -1,4 +1,4 @@
-// Moves a camera by the pointer. Pure functions: a camera in, a camera out, in worlds of any size.
+// Moves a camera by the pointer. Pure functions from camera to camera, for worlds of any size.
 //
 // Pixels count as in PixelRays (scene/camera.h), dy downwards. All cameras must pass check_camera(); the returned
 // cameras do.
@@ -32,8 +32,8 @@ struct DistanceLimits {
 /// limit: the set is a dot.
 DistanceLimits distance_limits(const Camera& camera, double diagonal);
 
-/// A factor above 1 comes closer. It divides the distances of eye and look_at from the anchor, so the anchor stays at
-/// its place in the picture. An orthographic camera divides its shorter side instead. Ends at the limits; a camera
+/// A factor above 1 comes closer. It divides the distances of eye and look_at from the anchor, so the anchor keeps its
+/// position in the picture. An orthographic camera divides its shorter side instead. Ends at the limits; a camera
 /// beyond a limit may come back. `factor` must be finite and above 0.
 Camera zoomed(const Camera& camera, double factor, Vec3d anchor, DistanceLimits limits);
 

@@ -7,7 +7,7 @@ namespace bihive {
 namespace {
 
 constexpr int kDivisors[] = {1, 2, 3, 4, 6, 8, 12, kCoarsestDivisor};
-// Up to this divisor people hardly see the pixels while something moves.
+// Up to this divisor the pixels are hardly visible in motion.
 constexpr int kFineDivisor = 3;
 constexpr double kWindowMs = 1000;
 

@@ -5,8 +5,8 @@
 namespace bihive {
 namespace {
 
-// Shares of the values themselves: the error of a measurement, the drift of the true value from one picture to the
-// next, and the share of the first picture's time that may be the same for every picture.
+// Relative noise: the error of a measurement, the drift of the true value between pictures, and the share of the first
+// picture's time that may be constant.
 constexpr double kNoise = 0.25;
 constexpr double kDrift = 0.2;
 constexpr double kFixedDrift = 0.05;

@@ -12,7 +12,7 @@ namespace {
 // A picture of a moving scene may overrun the budget by this factor; otherwise it might never be shown.
 constexpr double kMostBudgets = 4;
 
-// Of a picture on the way to the final one: enough for the right brightness. Some edges of single shadows show.
+// Rays of an intermediate picture: enough for the right brightness, though edges of single shadows show.
 constexpr int kQuickDirections = 8;
 constexpr int kQuickLightPoints = 2;
 
@@ -78,7 +78,7 @@ Result<FrameReport> PictureSteps::frame(const PictureSubject& subject, double bu
   return report;
 }
 
-// One step, or a part of it.
+// One step, or some of it.
 Status PictureSteps::go_on(const PictureSubject& subject, double budget_ms, bool& drawn) {
   const PictureSizePx size = subject.size;
   if (restart_ && !(begun_ && moving_)) {
@@ -158,7 +158,7 @@ Status PictureSteps::take_gpu(const PictureSubject& subject, bool& drawn) {
   const double primary = static_cast<double>(pixels_of(step_, subject.size)) * step_.samples;
   finish_step(subject);
 
-  // The number of rays of other kinds is asked at rest only, because it needs reading the picture back.
+  // The number of rays of other kinds is read at rest only, because that reads the picture back.
   if (settled_) {
     const Result<GlRenderer::Picture> picture = gpu.renderer().read();
     if (!picture) return picture.error();
@@ -169,7 +169,7 @@ Status PictureSteps::take_gpu(const PictureSubject& subject, bool& drawn) {
 }
 
 void PictureSteps::finish_step(const PictureSubject& subject) {
-  // Moving pictures have one sample a pixel, and are quick.
+  // Moving pictures have one sample per pixel, and are quick.
   const bool last = is_last(step_, subject);
   if (step_.samples == 1 && quick_ == slow_parts_) cost(subject).measured(spent_ms_, pixels_of(step_, subject.size));
   begun_ = false;

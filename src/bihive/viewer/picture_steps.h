@@ -1,4 +1,4 @@
-// Frame after frame: a picture in steps, coarse while something moves, finer and finer at rest, by either engine.
+// Draws pictures in steps, coarse while something moves, ever finer at rest, by either engine.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ class PictureSteps {
   /// hand would never see a picture.
   void moved() { restart_ = true; }
   /// Call it before the scene, its trees or the GPU's renderer go away or are used for something else. The unfinished
-  /// picture releases them, and the next call of go_on() begins a step anew.
+  /// picture releases them, and the next call of go_on() restarts a step.
   void drop_step();
   void forget_image() { image_ = {}; }
 

@@ -1,4 +1,4 @@
-// A picture of any size for a file, made in steps, so that its caller can show progress and stop it.
+// A picture of any size for a file, drawn in steps, so that its caller can show progress and stop it.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ class PictureToSave {
   bool finished() const;
   double done() const;  ///< share of the picture, 0 to 1; 1 at the end
   /// Returns the finished picture, once: display values of 8 bits, with opacity if its background is transparent, and
-  /// with those of the labels that it can have.
+  /// with the labels that apply.
   Result<PngPixels> take();
 
  private:

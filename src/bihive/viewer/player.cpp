@@ -50,7 +50,7 @@ void Player::set_frames_per_second(double speed) {
 void Player::shown(double now_ms) {
   if (shown_) return;
   shown_ = true;
-  // A small delay is caught up; a long one is not.
+  // Short delays are caught up, long ones are not.
   due_ms_ = std::max(due_ms_ + period_ms(), now_ms);
 }
 

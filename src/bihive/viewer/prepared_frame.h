@@ -1,4 +1,4 @@
-// The inside of frame_maker.h.
+// The implementation of frame_maker.h.
 #pragma once
 
 #include <cstdint>

@@ -43,7 +43,7 @@ Result<Look> look_of(const LookRow& row) {
   return Look{row.select.empty() ? "all" : row.select, {std::move(*action)}};
 }
 
-// The lights that were asked for stand in place of the style's or of the scene's own.
+// Requested lights replace the style's or the scene's own.
 Status light_up(LoadedScene& loaded, const std::vector<std::string>& lights) {
   LightChoice choice;
   for (const std::string& text : lights)
@@ -56,7 +56,7 @@ Status light_up(LoadedScene& loaded, const std::vector<std::string>& lights) {
   return Done{};
 }
 
-// Done to all spheres before the rows.
+// Applied to all spheres before the rows.
 Result<std::vector<Look>> looks_of_all(const ViewerLook& look) {
   std::vector<Look> looks;
   for (const auto& [action, value] : {std::pair("crease", look.crease), std::pair("colour-by", look.colour_by)}) {
@@ -79,7 +79,7 @@ Status set_nan_colour(const std::string& text, std::vector<Look>& looks, std::si
   return Done{};
 }
 
-// A range that was left open is the one that the same colours had in another frame.
+// An open range is the one that the same colours had in another frame.
 void keep_range(const std::vector<ColourBy>& ranges, ColourBy& how) {
   if (how.range) return;
   for (const ColourBy& one : ranges)
@@ -155,7 +155,7 @@ Status SceneInput::replicate(Scene& scene, const Copies& copies) {
 
 Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies& copies,
                                          const std::vector<ColourBy>* ranges) const {
-  // A scene file keeps its own look unless a style is asked for.
+  // A scene file keeps its own appearance unless a style is given.
   if (kind_ == Kind::own || (kind_ == Kind::document && style.empty())) {
     if (kind_ == Kind::own && !style.empty())
       return look_error("this scene has a look of its own", "styles are for files");
@@ -171,7 +171,7 @@ Result<LoadedScene> SceneInput::in_style(const std::string& style, const Copies&
     if (Status status = replicate(loaded->scene, copies); !status) return status.error();
     return loaded;
   }
-  // Colours by place depend on the copies.
+  // Colours by position depend on the copies.
   LoadedScene loaded = loaded_;
   if (Status status = replicate(loaded.scene, copies); !status) return status.error();
   if (ranges != nullptr && named->colour_by) keep_range(*ranges, *named->colour_by);

@@ -1,4 +1,4 @@
-// An input as it was read, from which every look of the user is made anew.
+// An input as read, from which the scene is rebuilt for every look of the user.
 #pragma once
 
 #include <array>
@@ -24,28 +24,28 @@ class SceneInput {
   static Result<SceneInput> built_in(const std::string& name, const ScenarioParameters& parameters,
                                      const ReadOptions& options);
   static Result<SceneInput> file(std::string_view bytes, const std::string& name, const ReadOptions& options);
-  /// Spheres that were read already.
+  /// Spheres already read.
   static SceneInput spheres(SphereFile file, const std::string& name);
-  /// A scene from elsewhere: it has a look of its own and takes no style.
+  /// A scene made by the caller: it has its own appearance and takes no style.
   static SceneInput made(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
 
   const SceneFacts& facts() const { return facts_; }
 
-  /// A scene, and how many spheres each row of the look selects.
+  /// A scene, and the number of spheres that each row of the look selects.
   struct Looked {
     LoadedScene loaded;
     std::vector<std::int64_t> counts;
   };
   /// As `bihive render` with these options makes it. Errors: no such style, colour or action, a style for a scene that
   /// takes none, a selection's (column as in select_spheres()), or that every sphere is hidden. `failed_row` (if given)
-  /// is then the row to blame; look.rows.size() if none is.
-  /// `copies`: along the vectors of the cell; unset: those of the input. Error too if there is no cell.
+  /// is then the faulty row; look.rows.size() if none is. `copies`: along the vectors of the cell; unset: those of the
+  /// input. Error too if there is no cell.
   /// `ranges`: as Scene::coloured_by of another frame, whose ranges colours by the same numbers keep.
   Result<Looked> looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row = nullptr,
                            const std::vector<ColourBy>* ranges = nullptr) const;
 
  private:
-  // spheres: a style makes all of the look. document: a scene file, read again for each style. own: takes no style.
+  // spheres: a style determines the appearance. document: a scene file, read again for each style. own: takes no style.
   enum class Kind { spheres, document, own };
 
   SceneInput(Kind kind, LoadedScene loaded);
@@ -56,7 +56,7 @@ class SceneInput {
                                              const std::vector<ColourBy>* ranges) const;
 
   Kind kind_;
-  LoadedScene loaded_;  // its own looks are not done yet
+  LoadedScene loaded_;  // its own looks are not applied yet
   SceneFacts facts_;
   std::string bytes_, name_;  // of a document
   ReadOptions options_;

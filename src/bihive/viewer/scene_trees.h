@@ -18,7 +18,7 @@ class SceneTrees {
   SceneTrees(const Scene& scene, const TreeParameters& parameters) : scene_(scene), parameters_(parameters) {}
 
   /// Error: not enough memory, or too many spheres. The tracers live as long as this object. The reference tree is that
-  /// of whole spheres: for the pictures of the tree and for graphics processors, which draw no cut ones.
+  /// of whole spheres: for pictures of the tree and for GPUs, which draw no cut ones.
   Result<const Tracer*> wide();
   Result<const Tracer*> reference();
   /// The tracer that these settings need.

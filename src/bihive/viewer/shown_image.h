@@ -9,13 +9,11 @@
 
 namespace bihive {
 
-/// As image_from_film() (render/renderer.h). A film with coverage lies over grey checks, so that people see what is
-/// transparent.
+/// As image_from_film() (render/renderer.h). A film with coverage is drawn over grey checks, which show transparency.
 Image image_to_show(const Film& film, View view, Transfer transfer);
 
-/// The image with the labels of a picture of these settings, those that it can have. A
-/// coarser image is enlarged to the settings' size before, so that letters stay sharp and in place while something
-/// moves.
+/// The image with the labels of these settings that apply. A coarser image is first enlarged to the settings' size, so
+/// that letters stay sharp and in place while something moves.
 Image labelled(Image image, const Scene& scene, const RenderSettings& settings);
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// A scene on show, with its description for the user and the trees that its pictures need.
+// The shown scene, with its description for the user and the trees that its pictures need.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ struct SceneFacts {
   std::string name, format;
   std::int64_t spheres = 0, frames = 1;
   std::vector<std::string> rules, warnings;  ///< as io/read_spheres.h
-  bool takes_style = false;                  ///< false: the scene has a look of its own
-  bool is_file_of_spheres = false;           ///< a style makes all of its look
+  bool takes_style = false;                  ///< false: the scene has its own appearance
+  bool is_file_of_spheres = false;           ///< a style determines its appearance
   bool has_elements = false;
   std::optional<double> time_ps{};                ///< of the frame, picoseconds, where the file states it
   bool has_cell = false;                          ///< a periodic cell
@@ -54,7 +54,7 @@ struct ShownScene {
   /// Whether the other scene has the same spheres and clips, whatever the spheres' other attributes: then these trees
   /// are right for both.
   bool same_spheres(const ShownScene& other) const;
-  /// Becomes the other scene, which has the same spheres, and keeps the trees.
+  /// Replaces the scene by another with the same spheres, and keeps the trees.
   void take_look_of(ShownScene&& other);
   /// Uses the camera of these settings from now on. The lights of a scene without its own turn with the camera.
   void look_by(const ViewerSettings& settings);

@@ -1,4 +1,4 @@
-// Both trees of a scene in numbers: the content of `bihive stats`, and the JSON that it prints.
+// Statistics of both trees of a scene: the content of `bihive stats`, and the JSON that it prints.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct WideFacts {
   }
 };
 
-/// A wide tree that has just been built, and the facts of its build.
+/// A newly built wide tree, and the facts of its build.
 struct BuiltWideTree {
   std::shared_ptr<const WideTree> tree;
   WideParameters parameters;

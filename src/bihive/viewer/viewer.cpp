@@ -40,7 +40,7 @@ class Viewer::Implementation {
     if (!looked) return looked.error();
     auto next = std::make_unique<ShownScene>(std::move(looked->loaded));
 
-    // A new scene brings these settings along; the others stay.
+    // A new scene resets these settings; the others stay.
     ViewerSettings settings = settings_;
     settings.replicate.reset();
     settings.picture = {next->scene.picture, {}};
@@ -143,17 +143,17 @@ class Viewer::Implementation {
   bool has_gl() const { return gpu_ != nullptr; }
   std::string gl_description() const { return gpu_ ? gpu_->renderer().description() : ""; }
 
-  // --- What is seen -------------------------------------------------------------------------------------------
+  // --- View ---------------------------------------------------------------------------------------------------
 
   const ViewerSettings& settings() const { return settings_; }
 
   Status set(ViewerSettings settings) {
     if (shown_) put_below(*shown_, settings);
     if (Status status = check_settings(settings); !status) return status;
-    if (Status status = check_wishes(settings); !status) return status;
+    if (Status status = check_requests(settings); !status) return status;
     // Only another projection, angle or lens: the camera still shows the whole set.
     const bool keeps_side = framed_from_ && same_place(settings.camera, settings_.camera);
-    // Another projection brings its own angle along; a set that is framed anew keeps the one that was chosen.
+    // Another projection resets the angle; a set that is framed again keeps the chosen one.
     const bool chooses_angle = settings.camera.projection == settings_.camera.projection &&
                                settings.camera.fov_deg != settings_.camera.fov_deg;
     const double fov_deg = chooses_angle ? settings.camera.fov_deg : chosen_fov_deg_;
@@ -190,8 +190,8 @@ class Viewer::Implementation {
     steps_.start_anew();
   }
 
-  // A camera that shows the whole set goes on doing so while the set turns: as far away as its side needs it, and not
-  // nearer than it was before the first turn.
+  // A camera that shows the whole set still does so while the set turns: at the distance that its side needs, and not
+  // nearer than before the first turn.
   void orbit(double dx_px, double dy_px) {
     if (!shown_) return;
     if (framed_from_ && settings_.view != View::tree) turned_from_ = settings_.camera;
@@ -315,8 +315,8 @@ class Viewer::Implementation {
     return Done{};
   }
 
-  // Refuse wishes that are new, and that the picture cannot have.
-  Status check_wishes(const ViewerSettings& settings) const {
+  // Refuse new requests that the picture cannot fulfil.
+  Status check_requests(const ViewerSettings& settings) const {
     if (!shown_) return Done{};
     if (!settings.focus_on.empty() && settings.focus_on != settings_.focus_on)
       if (const Result<double> distance = focus_on(shown_->scene.spheres, settings.camera, settings.focus_on);
@@ -324,7 +324,7 @@ class Viewer::Implementation {
         return bad_setting("focus: " + distance.error().message, distance.error().hint);
     const Labels before = settings_.picture.result().labels, labels = settings.picture.result().labels;
     if (labels.scale_bar && !before.scale_bar && settings.camera.projection != Projection::orthographic)
-      return bad_setting("a perspective picture has no scale: what is far looks small",
+      return bad_setting("a perspective picture has no scale: distant spheres look smaller",
                          "choose the projection orthographic for a scale bar");
     if (!labels.legend || before.legend) return Done{};
     RenderSettings picture;
@@ -339,7 +339,7 @@ class Viewer::Implementation {
     return a.eye == b.eye && a.look_at == b.look_at && a.up == b.up && a.shorter_side == shorter_side;
   }
 
-  // The layer below the user's settings: the scene's own picture. A lens that the user has opened wants more samples.
+  // The layer below the user's settings: the scene's own picture. A lens opened by the user needs more samples.
   static void put_below(const ShownScene& shown, ViewerSettings& settings) {
     PictureSettings& below = settings.picture.below;
     below = shown.scene.picture;
@@ -349,7 +349,7 @@ class Viewer::Implementation {
     if (shown.own_camera.aperture == 0) use_lens_samples(below);
   }
 
-  // Makes everything ready for these settings and, if there is one, for the next look of the scene; then shows it.
+  // Prepares everything for these settings and, if there is one, for the next look of the scene; then shows it.
   // `settings` gets the look's defaults, and with `keeps_side` the camera that shows the whole set. After an Error
   // nothing has changed.
   Status show(std::unique_ptr<ShownScene> next, ViewerSettings& settings, bool keeps_side) {
@@ -376,7 +376,7 @@ class Viewer::Implementation {
     return Done{};
   }
 
-  // Builds and uploads all that the settings need. After an Error the picture on show is unchanged.
+  // Builds and uploads all that the settings need. After an Error the shown picture is unchanged.
   Status make_ready(const ShownScene& shown, SceneTrees& trees, const ViewerSettings& settings, bool upload) {
     if (settings.engine == ViewerEngine::gpu)
       if (Status status = check_gpu(settings); !status) return status;
@@ -388,7 +388,7 @@ class Viewer::Implementation {
     const Result<const Tracer*> tracer = trees.needed_by(settings);
     if (!tracer) return tracer.error();
     if (settings.engine != ViewerEngine::gpu || !upload) return Done{};
-    drop_picture();  // it may be the graphics processor's
+    drop_picture();  // it may be the GPU's
     return gpu_->renderer().set_scene(shown.scene, (*tracer)->tree());
   }
 
@@ -423,7 +423,7 @@ class Viewer::Implementation {
 
   std::optional<SceneInput> input_;
   ViewerLook look_;
-  std::unique_ptr<ShownScene> shown_;  // the input in this look
+  std::unique_ptr<ShownScene> shown_;  // the input with this look
   std::unique_ptr<GpuPictures> gpu_;
   ViewerSettings settings_;
   PictureSizePx size_{1280, 720};

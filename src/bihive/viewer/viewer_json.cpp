@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-// kUnlimited is more than JavaScript's numbers hold.
+// kUnlimited exceeds JavaScript's numbers.
 constexpr const char* kUnlimitedName = "unlimited";
 
 // Takes members out of one object, and remembers the first fault.
@@ -187,7 +187,7 @@ void take_rows(Members& members, std::vector<LookRow>& rows, Error& error) {
   }
 }
 
-// The parameters of the picture. Those that the member `set` names are the user's; without it, all that are there.
+// The parameters of the picture. Those that the member `set` names are the user's; without it, all that are present.
 void take_parameters(Members& members, Overrides& user, Error& error) {
   Overrides found;
   for (Parameter parameter : picture_parameters()) {

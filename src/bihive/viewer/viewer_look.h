@@ -1,5 +1,5 @@
-// How the user wants the spheres to look: what --style, --element-colours, --background, --light, --colour-by,
-// --nan-colour, --crease and --select with the options behind it are for `bihive render`.
+// The user's appearance of the spheres: the equivalent of --style, --element-colours, --background, --light,
+// --colour-by, --nan-colour, --crease and --select with the options after it of `bihive render`.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace bihive {
 
 /// Plain data; viewer/viewer_json.h turns it into JSON, for links and saved states.
 struct ViewerLook {
-  std::string style;                  ///< one of style_names(); empty: what `bihive render` takes without --style
+  std::string style;                  ///< one of style_names(); empty: the default of `bihive render`
   std::string element_colours;        ///< "soft", "jmol" or "cpk"; empty: the style's
   std::string background;             ///< a colour, or "none": transparent; empty: the style's
-  std::vector<LookRow> rows;          ///< done one after the other, behind the looks of a scene file and those below
+  std::vector<LookRow> rows;          ///< applied in order, after the looks of a scene file and those below
   std::vector<std::string> lights{};  ///< as scene/light_text.h; empty: the style's, or the scene's own
   std::string colour_by{};   ///< of all spheres, as colour_by_from_text() takes it; empty: the style's or the scene's
   std::string nan_colour{};  ///< a colour, for colour_by and for all rows; empty: grey

@@ -21,14 +21,14 @@ enum class ViewerEngine { cpu, gpu };
 
 inline const Names<ViewerEngine> kViewerEngines{{"cpu", ViewerEngine::cpu}, {"gpu", ViewerEngine::gpu}};
 
-/// Of a picture at rest; `bihive render` draws more.
+/// Maximum samples of a picture at rest; `bihive render` draws more.
 constexpr int kMostSamples = 64;
 
 /// All choices of the user. Plain data; viewer/viewer_json.h turns them into JSON, for links and saved states.
 struct ViewerSettings {
   ViewerEngine engine = ViewerEngine::cpu;
   View view = View::shaded;
-  /// What the user has set, over the scene's own picture with at most kMostSamples samples per pixel. The edges of the
+  /// The user's settings, over the scene's own picture with at most kMostSamples samples per pixel. The edges of the
   /// cell are drawn by the CPU alone, and stay in view.
   LayeredSettings picture;
   std::optional<std::int64_t> max_prims, max_depth;  ///< >= 1; unset: the engine chooses
@@ -36,8 +36,8 @@ struct ViewerSettings {
   /// GPU engine, no more than 1 x 1 x 1.
   std::optional<std::array<std::int32_t, 3>> replicate;
   Camera camera;
-  /// With an aperture: the selection (docs/selections.md) whose middle is sharp, wherever the camera goes. Empty: what
-  /// camera.focus says.
+  /// With an aperture: the selection (docs/selections.md) whose centre is sharp, wherever the camera goes. Empty:
+  /// camera.focus.
   std::string focus_on;
 };
 
@@ -46,14 +46,14 @@ struct ViewerSettings {
 Status check_settings(const ViewerSettings& settings);
 bool same_tree(const ViewerSettings& a, const ViewerSettings& b);
 TreeParameters tree_parameters(const ViewerSettings& settings);
-/// The engine or the view walks the reference tree, not the wide one.
+/// Whether engine or view use the reference tree, not the wide one.
 bool needs_reference_tree(const ViewerSettings& settings);
-/// The engine draws adaptive samples, and the settings ask for them: samples_per_pixel does not count.
+/// Whether the engine draws adaptive samples, and the settings request them: samples_per_pixel does not count.
 bool draws_adaptive_samples(const ViewerSettings& settings);
-/// The samples of a picture at rest: their number, or with adaptive samples that of every pixel.
+/// Samples per pixel at rest; with adaptive samples those of every pixel.
 int samples_at_rest(const ViewerSettings& settings);
-/// For a picture of that size; the GPU engine draws no adaptive samples. `samples_per_pixel` does not count where
-/// adaptive samples are on.
+/// For a picture of that size; the GPU engine draws no adaptive samples. `samples_per_pixel` does not count with
+/// adaptive samples.
 RenderSettings render_settings(const ViewerSettings& settings, int width_px, int height_px, int samples_per_pixel);
 
 }  // namespace bihive

@@ -23,7 +23,7 @@ struct Slope {
 };
 
 // The copies at the corners of the block of images. The distance that a sphere needs is the largest of a few linear
-// functions of its place, so no other copy needs more than these.
+// functions of its position, so no other copy needs more than these.
 std::vector<std::int64_t> outermost_copies(const Images& images) {
   std::vector<std::int64_t> copies;
   copies.reserve(8);

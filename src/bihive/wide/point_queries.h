@@ -24,7 +24,7 @@
 
 namespace bihive {
 
-/// A view of `count` points that somebody else keeps: coordinate `axis` of point i is axis[axis][i * stride].
+/// A view of `count` points owned by the caller: coordinate `axis` of point i is axis[axis][i * stride].
 struct PointSpan {
   std::int64_t count = 0;
   const double* axis[3] = {};
@@ -44,8 +44,8 @@ struct PointOptions {
   int threads = 0;                     ///< 0: all
 };
 
-/// `per_point` entries for each point, ordered by distance, then id. Where there are fewer spheres, the rest are +inf
-/// and kNothing.
+/// `per_point` entries for each point, ordered by distance, then id. With fewer spheres, the rest are +inf and
+/// kNothing.
 struct NearestSpheres {
   std::int64_t per_point = 0;
   std::vector<double> distance;
@@ -53,8 +53,8 @@ struct NearestSpheres {
 };
 
 /// The `per_point` nearest spheres of each point, among those at a distance of at most `within`. Error: a bad point,
-/// per_point below 1, `within` NaN, or not enough memory. Costs, AVX-512, one thread: 1.6 us a point for the nearest of
-/// a million spheres, 4.5 us for the nearest eight (a million random points in one call: docs/library.md, "Points").
+/// per_point below 1, `within` NaN, or not enough memory. Costs, AVX-512, one thread: 1.6 us per point for the nearest
+/// of a million spheres, 4.5 us for the nearest eight (a million random points in one call: docs/library.md, "Points").
 Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& points, std::int64_t per_point = 1,
                                        double within = std::numeric_limits<double>::infinity(),
                                        const PointOptions& options = {});

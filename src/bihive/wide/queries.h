@@ -5,14 +5,13 @@
 // to some 45 MiB, and 60 bytes for each of up to 1048576 scattered rays). An invalid ray (geometry/ray.h) hits nothing.
 // Hold the std::shared_ptr that the builder gave for as long as a call runs.
 //
-// The form for many rays takes less than half the time a ray. Give it as many rays at a time as there are;
-// fewer than some thousand leave the vectors idle, and more than 32768 are cut into tiles of this size inside.
-// Scattered rays, whose neighbours are nowhere near, are sorted first where that pays, up to 1048576 at a time: the
-// more in one call the better (docs/library.md).
+// The form for many rays takes less than half the time per ray. Pass all rays at once; fewer than some thousand leave
+// the vectors idle, and more than 32768 are split into tiles of this size. Scattered rays, whose neighbours are far
+// apart, are sorted first where that pays, up to 1048576 at a time: the more in one call the better (docs/library.md).
 //
-// Lengths are not checked. The caller sees to it that each array of a span holds `count` entries, or is null where
-// RaySpan allows it, and that the answers have room for `count`; count 0 is fine. std::bad_alloc is thrown where the
-// thread gets no memory to work in, and nothing else.
+// Lengths are not checked. The caller guarantees that each array of a span holds `count` entries, or is null where
+// RaySpan allows it, and that the answers have room for `count`; count 0 is fine. Throws only std::bad_alloc, when the
+// thread gets no working memory.
 #pragma once
 
 #include <cstdint>
@@ -25,27 +24,28 @@
 
 namespace bihive {
 
-/// How neighbouring rays lie to each other, as far as the caller knows. It changes the speed, never an answer.
-/// blocks: each 64 neighbours, counted from the first, are close in origin and direction, as 8 x 8 pixels of a camera
-/// or their shadow rays are. any: nothing is known; mirrored, transmitted, random rays.
+/// How coherent neighbouring rays are, as far as the caller knows. It changes the speed, never an answer. blocks: each
+/// 64 neighbours, counted from the first, are close in origin and direction, as 8 x 8 pixels of a camera or their
+/// shadow rays are. any: nothing is known; mirrored, transmitted, random rays.
 enum class RayOrder { blocks, any };
 
 /// The closest hit of each ray: t and id of ray i to hits.t[i] and hits.sphere_id[i]. Costs, AVX2, one thread:
-/// primary rays 10 ns (4,096 spheres) to 60 ns (a million) a ray, mirrored ones 100 to 480 ns, random ones 80 to 420 ns
-/// (a million in one call): docs/performance.md.
+/// primary rays 10 ns (4,096 spheres) to 60 ns (a million) per ray, mirrored ones 100 to 480 ns, random ones 80 to 420
+/// ns (a million in one call): docs/performance.md.
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits);
 
-/// Is anything hit? 1 or 0 of ray i to hidden[i]. Rays that lead to one point at t = 1, as shadow rays to a light do,
-/// are recognised in either order and sorted by where they come from, up to 262144 at a time: where there are
-/// thousands, that is up to twice as fast as other rays. Costs, AVX2, one thread: shadow rays of pixels 20 to 250 ns a
-/// ray, of what mirrored rays hit 40 to 300 ns.
+/// Any hit: sets hidden[i] to 1 if ray i hits anything, else to 0. Rays that lead to one point at t = 1, as shadow rays
+/// to a light do, are recognised in either order and sorted by their origins, up to 262144 at a time: with thousands of
+/// them, that is up to twice as fast as other rays. Costs, AVX2, one thread: shadow rays of primary hits 20 to 250 ns
+/// per ray, of mirrored hits 40 to 300 ns.
 void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden);
 
-/// Every hit of each ray, with the t of geometry/sphere.h: by ray, then by t, then by id. They replace what `hits`
-/// held. Made for blocks of neighbouring rays (RayOrder::blocks); other rays cost some microseconds each.
+/// Every hit of each ray, with the t of geometry/sphere.h: by ray, then by t, then by id. Overwrites `hits`. Made for
+/// blocks of neighbouring rays (RayOrder::blocks); other rays cost some microseconds each.
 void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits);
 
-/// One ray: for code that has no more at a time. Costs, AVX2: 0.3 us (random rays, 4,096 spheres) to 1 us (a million).
+/// A single ray, for code that has only one at a time. Costs, AVX2: 0.3 us (random rays, 4,096 spheres) to 1 us (a
+/// million).
 Hit closest_hit(const WideTree& tree, const Ray& ray);
 bool occluded(const WideTree& tree, const Ray& ray);
 

@@ -10,8 +10,8 @@
 
 namespace bihive {
 
-/// A view of `count` rays that somebody else keeps. Meaning and ranges as in geometry/ray.h; world units.
-/// Null: t_min is 0, t_max +inf, leaves kNothing, inside false for every ray.
+/// A view of `count` rays owned by the caller. Meaning and ranges as in geometry/ray.h; world units. Null: t_min is 0,
+/// t_max +inf, leaves kNothing, inside false for every ray.
 struct RaySpan {
   std::int64_t count = 0;
   const float* origin[3] = {};
@@ -63,7 +63,7 @@ struct RayHit {
   std::int64_t sphere_id;
 };
 
-/// Rays that it keeps itself. The optional arrays are empty (defaults for all) or have an entry a ray.
+/// Owns its rays. The optional arrays are empty (defaults for all) or have one entry per ray.
 struct RayBatch {
   std::vector<float> origin[3];
   std::vector<float> direction[3];
@@ -89,7 +89,7 @@ struct RayBatch {
   }
   void clear() { resize(0); }
 
-  /// Adds one ray with all that it says. The rays before it keep what they are.
+  /// Adds one ray with all its fields. Earlier rays do not change.
   void push_back(const Ray& ray) {
     const Ray plain;
     const auto before = static_cast<std::size_t>(size());
@@ -107,7 +107,7 @@ struct RayBatch {
     inside.push_back(ray.inside ? 1 : 0);
   }
 
-  /// Adds rays without their segments: these have origin, direction, what they leave, and from which side.
+  /// Adds rays without segments: origin, direction, the surface on which they start, and its side.
   void append(const RaySpan& rays) {
     for (int axis = 0; axis < 3; ++axis) {
       origin[axis].insert(origin[axis].end(), rays.origin[axis], rays.origin[axis] + rays.count);
@@ -132,7 +132,7 @@ struct RayBatch {
   }
 };
 
-/// Hits that it keeps itself.
+/// Owns its hits.
 struct HitBatch {
   std::vector<double> t;
   std::vector<std::int64_t> sphere_id;

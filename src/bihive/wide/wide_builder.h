@@ -14,15 +14,15 @@ namespace bihive {
 /// 0: the engine chooses.
 struct WideParameters {
   std::int64_t max_prims = 0;  ///< no leaf is larger unless max_depth or coincidence forces it
-  std::int64_t max_depth = 0;  ///< levels at most, leaves counted as one: 1 is a single leaf
+  std::int64_t max_depth = 0;  ///< maximum levels, leaves counted as one: 1 is a single leaf
 };
 
 /// A tree depends on the spheres and the parameters only, not on the number of threads, the instruction set, or what
 /// was built before.
 ///
 /// A tree that build() returned is never written to again while anybody holds it; building into a tree that is being
-/// traced cannot happen. When the last holder lets go of it, its memory goes back to the builder, and the next build
-/// takes it: whoever drops the old tree before building the next needs one allocation for all frames, whoever keeps it
+/// traced cannot happen. When the last holder releases it, its memory goes back to the builder, and the next build
+/// reuses it: whoever drops the old tree before building the next needs one allocation for all frames, whoever keeps it
 /// needs two. Holders may outlive the builder.
 class WideBuilder {
  public:
@@ -32,7 +32,7 @@ class WideBuilder {
   WideBuilder& operator=(const WideBuilder&) = delete;
 
   /// Errors: more than 2^32 - 1 spheres, or not enough memory: less than predicted, or an allocation that fails. One
-  /// call at a time a builder. `threads` 0: all.
+  /// call at a time per builder. `threads` 0: all.
   Result<std::shared_ptr<const WideTree>> build(const SphereSet& spheres, const WideParameters& parameters = {},
                                                 int threads = 0);
 
@@ -44,7 +44,7 @@ class WideBuilder {
   std::shared_ptr<State> state_;
 };
 
-/// Bytes of a tree of that many spheres and of its making.
+/// Bytes of a tree of that many spheres, and of its construction.
 struct WideMemoryPrediction {
   /// WideTree::used_bytes(), as a range: full leaves and a palette, to the most scattered scenes of many radii. Spheres
   /// that coincide in centre and radius add 20 bytes each (WideTree::repeated); clusters in which distances fall

@@ -1,4 +1,4 @@
-// Numbers of a wide tree, and the cost that a ray through it may have.
+// Statistics of a wide tree, and the expected cost of a ray.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bihive {
 
-/// Of an empty tree everything is 0.
+/// All numbers of an empty tree are 0.
 struct WideStatistics {
   std::int64_t spheres = 0;
   std::int64_t nodes = 0;
@@ -18,15 +18,15 @@ struct WideStatistics {
   MinAvgMax spheres_per_leaf;
   MinAvgMax nodes_above_leaf;  ///< from the root on
 
-  /// Shares of lanes at work, 0 to 1: boxes of the nodes, and spheres of the leaves in steps of kWidth.
+  /// Lane utilization, 0 to 1: boxes of the nodes, and spheres of the leaves in steps of kWidth.
   double node_fill = 0, leaf_fill = 0;
 
-  /// Surface that siblings have in common, pair by pair, per surface of the node's own box: over all nodes, weighted by
-  /// that surface. 0: no boxes overlap.
+  /// Surface shared by siblings, pair by pair, per surface of the node's own box: over all nodes, weighted by that
+  /// surface. 0: no boxes overlap.
   double overlap = 0;
 
-  /// What a random line that meets the box of all spheres meets on its way through: nodes, leaves and spheres tested,
-  /// were no hit to end it. A box is met by a line as often as its surface is large.
+  /// Nodes, leaves and spheres tested along a random line through the box of all spheres, without ending at a hit. The
+  /// probability that a line meets a box is proportional to its surface.
   double expected_nodes = 0, expected_leaves = 0, expected_spheres = 0;
 
   std::int64_t node_bytes = 0;       ///< kWidth boxes and links each

@@ -49,8 +49,9 @@ static_assert(sizeof(WideNode) == 512);
 
 /// Spheres in leaf order, structure of arrays, each array padded by kWidth entries that are never hit (radius 0, far
 /// away). Two layouts: with a palette (at most 31 distinct radii above 0, fewer than 2^27 spheres) `word` is radius
-/// class << 27 | id and `r` is null: 16 bytes a sphere; otherwise `word` is the id and `r` holds the radius: 20 bytes.
-/// Class 31 is radius 0; without such radii palette_size is their number, else 32. The padding is of class 31 always.
+/// class << 27 | id and `r` is null: 16 bytes per sphere; otherwise `word` is the id and `r` holds the radius: 20
+/// bytes. Class 31 is radius 0; without such radii palette_size is their number, else 32. The padding is of class 31
+/// always.
 struct WideSpheres {
   const float* x = nullptr;
   const float* y = nullptr;
@@ -76,7 +77,8 @@ struct RepeatedSphere {
   float x, y, z, r;
 };
 
-/// More than kWidth equal spheres, of which the tree holds the one with the lowest id. A ray that meets it meets all.
+/// More than kWidth equal spheres (duplicates), of which the tree holds the one with the lowest id. A ray that meets it
+/// meets all.
 struct Pile {
   std::uint32_t id;                        ///< the lowest
   std::size_t first_other, end_of_others;  ///< the others, in WideTree::others_in_piles
@@ -88,23 +90,23 @@ struct WideTree {
   Aabb aabb;                ///< of all spheres
   double scale = 1;         ///< stored = world * scale, a power of two
   std::int64_t size = 0;    ///< spheres
-  std::int64_t placed = 0;  ///< of them, those in leaves: all but the others in piles
+  std::int64_t placed = 0;  ///< of them, those in leaves: all except `others_in_piles`
   std::int64_t node_count = 0;
   const WideNode* nodes = nullptr;
   WideSpheres spheres;
   int levels = 0;  ///< of wide nodes from the root to the deepest, leaves not counted; 0 if empty
   std::int64_t largest_leaf = 0;
-  /// Of an image: its spheres are those of the tree moved by `shift` (stored units), each centre rounded once to
+  /// For an image: its spheres are those of the tree moved by `shift` (stored units), each centre rounded once to
   /// binary32. Nodes and spheres are still the tree's own.
   bool is_image = false;
   Vec3d shift;
-  const WideTree* image_of = nullptr;    ///< whose piles are those of the image
+  const WideTree* image_of = nullptr;    ///< whose `piles` are those of the image
   std::vector<RepeatedSphere> repeated;  ///< ascending ids; empty unless spheres coincide
 
-  std::vector<Pile> piles;  ///< ascending ids; closest and any hit need not know them
+  std::vector<Pile> piles;  ///< duplicates, by ascending ids; closest and any hit ignore them
   std::vector<std::uint32_t> others_in_piles;
 
-  AlignedBuffer node_memory, sphere_memory;  ///< what the pointers above point into
+  AlignedBuffer node_memory, sphere_memory;  ///< memory of the arrays above
 
   /// The centre that a ray meets, in stored units.
   Vec3d centre(std::int64_t slot) const {
@@ -116,10 +118,10 @@ struct WideTree {
   /// the tree must outlive the image. Spheres of an image must not coincide if rays leave them.
   WideTree image(Vec3d by) const;
 
-  /// Bytes in use: nodes, spheres with their padding, repeated spheres, piles, and this structure. All that tracing
-  /// touches.
+  /// Bytes in use: nodes, spheres with their padding, repeated spheres, duplicates, and this structure. All that
+  /// tracing touches.
   std::int64_t used_bytes() const;
-  /// Bytes held, with what a rebuild keeps in reserve.
+  /// Bytes held, with the reserve for a rebuild.
   std::int64_t allocated_bytes() const;
 };
 

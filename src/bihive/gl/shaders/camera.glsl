@@ -12,16 +12,16 @@ uniform vec3 right_lower;
 uniform vec3 down;
 uniform vec3 down_lower;
 uniform vec2 half_size;
-uniform vec3 view_forward;  // as `forward`, without the tilt that a place on the lens gives
+uniform vec3 view_forward;  // as `forward`, without the tilt for a point of the lens
 
-// How deep along the view is a point of the ray?
+// The depth of a point of the ray along the view.
 float depth_of(Ray ray, float t) {
   return t * dot(ray.direction, view_forward);
 }
 
-// The ray through a picture position in pixels from the top left corner. Its direction, or of parallel rays its origin,
-// nearly always equals the CPU's to the last bit. Edges of a checker pass through the centres of many pixels, and that bit decides where such an edge
-// lies.
+// The ray through a picture position in pixels from the top left corner. Its direction, or for parallel rays its
+// origin, nearly always equals the CPU's to the last bit. Edges of a checker pass through the centres of many pixels,
+// and that bit decides where such an edge lies.
 Ray camera_ray(vec2 position) {
   vec2 steps = position - half_size;
   Pair3 start = Pair3(forward, forward_lower);

@@ -1,5 +1,5 @@
-// Of each sample, the share of the picture that its light covers: 1 where it hits something, and less where all that it
-// meets lets light through. For transparent backgrounds.
+// The coverage of each sample: 1 if it hits something opaque, and less if everything it meets transmits light. For
+// transparent backgrounds.
 #include "film"
 #include "scene_hit"
 

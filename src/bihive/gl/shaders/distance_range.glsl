@@ -1,4 +1,4 @@
-// The range of distances for the distance view: the nearest and the farthest sample of a pixel so far.
+// The range of distances for the distance view: the nearest and the farthest sample of a pixel up to now.
 #include "film"
 #include "scene_hit"
 

@@ -1,5 +1,4 @@
-// Twin of scene/faint_level.h. Sets of directions or points stand in their texture one behind the other, level after
-// level.
+// Twin of scene/faint_level.h. Sets of directions or points follow each other in their texture, level after level.
 #include "common"
 
 const int kFaintLevels = 5;
@@ -15,7 +14,7 @@ int asked_at_level(int count, int level) {
   return min(count, max(kFewestOfFaint, count >> level));
 }
 
-// The place of a set's first number; `sets` of each level.
+// The index of a set's first entry; `sets` of each level.
 int first_at_level(int count, int sets, int set, int level) {
   int first = set * asked_at_level(count, level);
   for (int i = 0; i < level; ++i) first += sets * asked_at_level(count, i);

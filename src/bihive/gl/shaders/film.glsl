@@ -1,4 +1,4 @@
-// One sample of every pixel: the film before, plus the light of the sample. Rows count from the top. Alpha adds up the
+// One sample of every pixel: the previous film plus the light of the sample. Rows count from the top. Alpha adds up the
 // rays that are not primary rays.
 #include "film_texel"
 #include "sample"

@@ -9,7 +9,8 @@ struct Hit {
 };
 
 #ifdef LAYERS
-// Is the hit of sphere i at t the ray's next one so far? Of equal t an opaque sphere comes first, then the smaller id.
+// Is the hit of sphere i at t before the ray's current next one? Of equal t an opaque sphere comes first, then the
+// smaller id.
 bool is_nearer(Ray ray, float t, int i, Hit hit) {
   if (t > hit.t || t < ray.t_passed) return false;
   if (t == ray.t_passed && int(sphere_id(i)) <= ray.id_passed) return false;

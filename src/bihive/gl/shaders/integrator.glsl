@@ -6,8 +6,8 @@
 uniform int recursion;
 uniform bool shadows;
 uniform vec3 background;
-uniform float faintest_ray;      // a weaker one is not followed
-uniform bool without_background;  // leave it out straight behind what the primary ray meets
+uniform float faintest_ray;      // a weaker one is not traced
+uniform bool without_background;  // leave it out straight behind whatever the primary ray meets
 
 const int kPrimary = 1;  // generation
 
@@ -15,7 +15,7 @@ struct Light {
   vec3 radiance;
   int deepest_hit;  // generation
   int other_rays;   // not the primary ray
-  // Of the primary ray: its t behind all layers, and the share of light that passes these.
+  // For the primary ray: its t behind all layers, and the share of light that they transmit.
   float t;
   float passing;
 };
@@ -36,7 +36,7 @@ Light radiance(Ray primary, bool lit) {
   Light light = Light(vec3(0.0), 0, 0, kNever, 1.0);
   Ray ray = primary;
   float weight = 1.0;
-  vec3 tint = vec3(1.0);  // of what lies between the ray and the eye
+  vec3 tint = vec3(1.0);  // of everything between the ray and the eye
   int depth = kPrimary;
   for (;;) {
     bool goes_on = false;

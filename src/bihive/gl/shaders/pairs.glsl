@@ -1,5 +1,5 @@
-// Numbers of about 46 bits as the sum of two of binary32, for the few places where the CPU's binary64 decides the
-// colour of a pixel: `upper` is the rounded sum, `lower` the rest.
+// Numbers of about 46 bits as the sum of two binary32 numbers, for the few computations where the CPU's binary64
+// decides the colour of a pixel: `upper` is the rounded sum, `lower` the rest.
 #include "common"
 
 // Always 0, but unknown to the compiler, which must not simplify (a + b) - a.

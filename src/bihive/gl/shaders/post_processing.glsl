@@ -41,7 +41,7 @@ float outline_at(ivec2 place) {
   float share = clamp((lines_wide - 2.0) / 4.0, 0.0, 1.0);
   if (!(share > 0.0)) return 0.0;
 
-  // Look for something deeper nearby.
+  // Search for something deeper nearby.
   float limit = line.is_outline ? depth + outline_step * radius : kNever;
   int reach = int(line.width_px);
   for (int y = -reach; y <= reach; ++y)
@@ -60,7 +60,7 @@ float fog_at(float depth) {
   return fog_strength * clamp((depth - fog_depths.x) / (fog_depths.y - fog_depths.x), 0.0, 1.0);
 }
 
-// `weight`: the share of light that passes what is transparent before the surface at this depth.
+// `weight`: the share of light transmitted by what is transparent in front of the surface at this depth.
 vec3 applied(vec3 light, float depth, float weight, vec3 background) {
   if (has_lines) light = mix(light, outline_colour, outline_at(ivec2(gl_FragCoord.xy) + border) * weight);
   if (fog_strength > 0.0 && depth < kNever) light = mix(light, background, fog_at(depth) * weight);

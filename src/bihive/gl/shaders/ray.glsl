@@ -2,9 +2,9 @@
 #include "common"
 
 // Points origin + t direction with 0 <= t <= t_max. `leaves`: position in leaf order of the sphere on which the ray
-// starts, kPlane or kNothing. `left`: centre and radius of that sphere, -1 for none; the ray also leaves spheres that
-// coincide with it. With LAYERS the ray has come to t_passed, through sphere id_passed: hits are behind that, in the order
-// of t and then of id.
+// starts, kPlane or kNothing. `left`: centre and radius of that sphere, -1 for none; the ray also exits spheres that
+// coincide with it. With LAYERS the ray has advanced to t_passed, through sphere id_passed: later hits follow in the
+// order of t, then of id.
 struct Ray {
   vec3 origin;
   vec3 direction;

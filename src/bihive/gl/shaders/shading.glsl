@@ -1,12 +1,12 @@
 // Twin of render/shading.h, by the plain formulas: it divides the offset to a light by its length, and builds R. A
-// sample's light may come in slices (gl/light_slices.h), whose sum it is: each asks some directions and some lights.
+// sample's light may come in slices (gl/light_slices.h), whose sum it is: each samples some directions and some lights.
 #include "elementary"
 #include "faint_level"
 #include "surface"
 
 uniform vec3 ambient_light;
 #ifdef AMBIENT_OCCLUSION
-uniform sampler2D directions;  // of all sets, one set behind the other (gl/sample_textures.h)
+uniform sampler2D directions;  // of all sets, one after the other (gl/sample_textures.h)
 uniform int direction_set;     // of the sample
 uniform int direction_sets;
 uniform int direction_count;
@@ -22,7 +22,7 @@ uniform int light_begin;        // of the slice
 uniform int light_end;
 uniform int light_point_begin;
 uniform int light_point_end;
-uniform bool first_slice;  // has everything else
+uniform bool first_slice;  // includes everything else
 
 // A ray that starts on the surface.
 Ray ray_from(Surface surface, vec3 direction, bool inside) {
@@ -48,7 +48,7 @@ vec3 tinted(Material material) {
   return vec3(1.0 - material.tint) + material.tint * material.colour;
 }
 
-// The part of the slice. Without AMBIENT_OCCLUSION everything is visible.
+// The visible share within the slice. Without AMBIENT_OCCLUSION everything is visible.
 vec3 ambient_visibility(Surface surface, int level, inout int ambient_rays) {
 #ifdef AMBIENT_OCCLUSION
   if (direction_begin == direction_end) return vec3(0.0);
@@ -78,7 +78,7 @@ vec3 ambient_visibility(Surface surface, int level, inout int ambient_rays) {
   return vec3(first_slice ? 1.0 : 0.0);
 }
 
-// A point of light as seen from a place.
+// A point light as seen from a shading point.
 struct LightOffset {
   vec3 to_light;
   float distance;
@@ -104,7 +104,7 @@ vec3 local_light(Surface surface, bool shadows, int level, vec3 visibility, inou
     vec3 colour = texelFetch(lights, texel(2 * i + 1), 0).xyz;
     LightOffset centre = light_offset(light.xyz, surface);
 
-    // What arrives from it? Ask along the way to its centre, or to each of its points.
+    // The light that arrives: traces shadow rays to its centre, or to each of its points.
     bool soft = shadows && light.w > 0.0 && light_point_count > 0;
     int points = soft ? soft_points : 1;
     vec3 facing = vec3(0.0);

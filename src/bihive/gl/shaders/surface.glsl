@@ -26,7 +26,7 @@ struct Material {
 struct Surface {
   int sphere;        // or kPlane
   vec4 stored;       // the sphere
-  vec3 origin;       // where the next rays start
+  vec3 origin;       // origin of the next rays
   vec3 incoming;     // length 1
   vec3 normal;       // length 1, turned against the ray
   bool from_inside;  // the ray comes from inside the sphere

@@ -1,11 +1,11 @@
 // Twin of gl/tree_textures.h: the content of its textures.
 #include "common"
 
-uniform sampler2D spheres;       // a texel a sphere in leaf order: centre, radius
-uniform usampler2D sphere_info;  // a texel a sphere: id, look, group, bits of its own outline
-uniform usampler2D nodes;        // two texels a node: planes; kind, axis and count, first
-uniform sampler2D looks;         // four texels a look; the plane's is look 0
-uniform sampler2D lights;        // two texels a light: position, radius; colour
+uniform sampler2D spheres;       // a texel per sphere in leaf order: centre, radius
+uniform usampler2D sphere_info;  // a texel per sphere: id, look, group, bits of its own outline
+uniform usampler2D nodes;        // two texels per node: planes; kind, axis and count, first
+uniform sampler2D looks;         // four texels per look (a material); the plane's is look 0
+uniform sampler2D lights;        // two texels per light: position, radius; colour
 uniform int sphere_count;
 
 ivec2 texel(int i) {

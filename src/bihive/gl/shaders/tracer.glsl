@@ -1,10 +1,10 @@
-// Twin of render/tracer.h: walks the tree if TREE is defined, else tests every sphere. share() is LightPaths' of
+// Twin of render/tracer.h: traverses the tree if TREE is defined, else tests every sphere. share() is LightPaths' of
 // render/transparency.h.
 #include "hit"
 #include "sphere"
 
 #ifdef LAYERS
-vec3 light_passed = vec3(1.0);  // of the last ray that asked for light
+vec3 light_passed = vec3(1.0);  // transmittance along the last shadow ray
 #endif
 
 #ifdef TREE
@@ -29,7 +29,7 @@ bool occluded(Ray ray) {
 }
 #endif
 
-// What arrives at the ray's end: 0 behind an opaque sphere, else the product of what the crossed spheres let through.
+// Transmittance along a shadow ray: 0 behind an opaque sphere, else the product over the crossed spheres.
 vec3 share(Ray ray) {
 #ifdef LAYERS
   light_passed = vec3(1.0);

@@ -1,15 +1,15 @@
-// Twin of render/transparency.h, on one tree of all spheres: a sphere's look says what it lets through. With LAYERS
-// transparent spheres are passed straight and count once (OpacityRule::once); else all spheres are opaque here.
+// Twin of render/transparency.h, on one tree of all spheres: a sphere's look says what it transmits. With LAYERS rays
+// pass straight through transparent spheres, which count once (OpacityRule::once); else all spheres are opaque here.
 #include "textures"
 
 #ifdef LAYERS
-// The share that a sphere lets through: x for rays that see, y for rays that ask for light.
+// The share that a sphere transmits: x for viewing rays, y for shadow rays.
 vec2 passing(int sphere) {
   int look = int(texelFetch(sphere_info, texel(sphere), 0).y);
   return texelFetch(looks, texel(4 * look + 3), 0).yz;
 }
 
-// The colour that a share gets which the sphere lets through. Twin of passing_tint().
+// The tint of the transmitted share. Twin of passing_tint().
 vec3 passing_tint(int sphere, float share) {
   int look = int(texelFetch(sphere_info, texel(sphere), 0).y);
   vec3 colour = texelFetch(looks, texel(4 * look), 0).xyz;
@@ -17,13 +17,13 @@ vec3 passing_tint(int sphere, float share) {
   return largest > 0.0 ? 1.0 - (1.0 - share) * (1.0 - max(colour, 0.0) / largest) : vec3(1.0);
 }
 
-// Light that arrives behind a sphere, for rays that ask for light.
+// Light that arrives behind a sphere, for shadow rays.
 vec3 arriving_behind(int sphere) {
   float share = passing(sphere).y;
   return share > 0.0 ? share * passing_tint(sphere, share) : vec3(0.0);
 }
 
-// Does a ray that sees go on behind this?
+// Does a viewing ray continue behind this?
 bool is_layer(int sphere) {
   return sphere >= 0 && passing(sphere).x > 0.0;
 }

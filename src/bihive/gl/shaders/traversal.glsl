@@ -45,7 +45,7 @@ vec2 above(Slabs slabs, vec2 part, int axis, float plane) {
   return slabs.over_direction[axis] > 0.0 ? vec2(max(part.x, t), part.y) : vec2(part.x, min(part.y, t));
 }
 
-// For the traversal view, without padding: does the part overlap the open slab lo < coordinate < hi?
+// For the traversal view, without padding: does the interval overlap the open slab lo < coordinate < hi?
 bool overlaps(Slabs slabs, vec2 part, int axis, float lo, float hi) {
   if (!(part.x <= part.y) || !(lo < hi)) return false;
   float origin = slabs.origin[axis];
@@ -56,8 +56,8 @@ bool overlaps(Slabs slabs, vec2 part, int axis, float lo, float hi) {
   return max(part.x, min(t_lo, t_hi)) < min(part.y, max(t_lo, t_hi));
 }
 
-// The closest hit, or with any_hit some hit; with LAYERS any_hit looks for opaque spheres, and light_passed is multiplied
-// by what the others let through.
+// The closest hit, or with any_hit some hit; with LAYERS any_hit searches for opaque spheres, and light_passed is
+// multiplied by the transmittance of the others.
 Hit traverse(Ray ray, bool any_hit) {
   // Test the box around everything.
   Slabs slabs = make_slabs(ray);

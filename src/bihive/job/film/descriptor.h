@@ -1,4 +1,4 @@
-// An open file or folder, closed at the end of its life.
+// An open file or folder, closed when destroyed.
 #pragma once
 
 #include <unistd.h>

@@ -35,7 +35,7 @@ bool is_hidden_name(std::string_view name) {
          name.substr(name.size() - kHiddenEnd.size()) == kHiddenEnd;
 }
 
-// Older versions made the first two of these.
+// Older versions used the first two of these.
 bool is_own_name(const std::string& name) {
   for (const char* const own : {"ffmpeg.log", "segments.txt", kLockOfFilm})
     if (name == own) return true;
@@ -64,7 +64,7 @@ HiddenFolder make_hidden_folder(int parent, const std::string& path_of_parent, i
       fail_of_system("a folder for the film cannot be made", path_of_parent, errno);
     }
     try {
-      // Another run may take it for what a killed one left, before it is locked.
+      // Before it is locked, another run may take it for that of a killed one.
       std::optional<OwnFolder> folder = OwnFolder::open_private(path_of_parent + "/" + name);
       if (!folder) continue;
       std::optional<Descriptor> lock = lock_folder(*folder, kind);

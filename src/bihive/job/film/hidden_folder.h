@@ -1,5 +1,5 @@
-// The folder of a film before a picture is whole: it has a name that nobody can guess, and a lock, so that the next run
-// can tell what a killed one has left. Also the names of all files that bihive makes in the folder of a film.
+// The folder of a film before its first picture is complete: it has an unguessable name, and a lock, so that the next
+// run can recognise what a killed one has left. Also the names of all files that bihive makes in the folder of a film.
 #pragma once
 
 #include <optional>
@@ -21,20 +21,20 @@ struct HiddenFolder {
   Descriptor lock;
 };
 
-/// Makes one for this user alone; `kind`: LOCK_EX or LOCK_SH. Fails with kBadInput.
+/// Creates one for this user alone; `kind`: LOCK_EX or LOCK_SH. Fails with kBadInput.
 HiddenFolder make_hidden_folder(int parent, const std::string& path_of_parent, int kind);
 
 /// A name for such a folder.
 std::string hidden_name();
 
-/// The lock of a film's folder. It ends with the program, however that ends. Nothing: another run has it. Not every
+/// The lock of a film's folder, released when the program ends, however it ends. Nothing: another run has it. Not every
 /// file system has locks.
 std::optional<Descriptor> lock_folder(const OwnFolder& folder, int kind);
 
-/// Whether all in the folder is what bihive makes there.
+/// Whether the folder contains only what bihive makes there.
 bool all_own(const OwnFolder& folder);
 
-/// Removes what bihive has made, the lock at last; `known`: more names, if the folder cannot be listed.
+/// Removes what bihive has made, the lock last; `known`: more names, if the folder cannot be listed.
 void remove_own_files(const OwnFolder& folder, std::vector<std::string> known = {});
 
 /// Removes the hidden folders that killed runs of this user left. A living run has locked its own.

@@ -22,7 +22,7 @@ constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
   fail({what, path, 0, 0, hint});
 }
 
-// Owner and mode that a new file gets here: a file system without users gives all files to one user, and one without
+// The owner and mode of a new file here: a file system without users gives all files to one user, and one without
 // permissions invents them.
 std::optional<struct stat> facts_of_new_file(int folder) {
   const std::string name = ".bihive-" + random_digits() + ".part";

@@ -1,4 +1,4 @@
-// A call of the system that failed.
+// Failed system calls.
 #pragma once
 
 #include <cerrno>

@@ -21,7 +21,7 @@ BinarySplit* NodeArena::take_portion() {
     used_ = 0;
   }
   if (chunk_ == chunks_.size()) {
-    // As much again as there is, within reason.
+    // Doubles the memory, within limits.
     const auto held = static_cast<std::size_t>(allocated_bytes());
     AlignedBuffer chunk;
     chunk.reserve(std::clamp(held, 4 * kPortionBytes, kLargestChunk));

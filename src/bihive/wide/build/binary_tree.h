@@ -19,15 +19,15 @@ struct BinarySplit;
 struct BinaryNode {
   Aabb box;
   std::uint32_t count;
-  std::uint32_t axis;  ///< of the split: the left child lies towards -inf
+  std::uint32_t axis;  ///< split axis: the left child lies towards -inf
   BinarySplit* split;  ///< null: a leaf
 
   bool is_leaf() const { return split == nullptr; }
 };
 
 /// The two sides of a node, and what it costs to have the node's spheres in `k` slots of a wide node, k = 1 to 15, in
-/// cost[k - 1]: the surface of all wide nodes needed below, which is what a ray's node visits are in proportion to.
-/// With more slots, more of what lies below fits into the wide node above (wide/build/slot_costs-inl.h).
+/// cost[k - 1]: the surface of all wide nodes needed below, to which a ray's node visits are proportional. With more
+/// slots, more of what lies below fits into the wide node above (wide/build/slot_costs-inl.h).
 struct BinarySplit {
   BinaryNode side[2];
   float cost[kWidth];
@@ -39,7 +39,7 @@ inline float half_area(const Aabb& box) {
   return (side.x * side.y + side.y * side.z) + side.z * side.x;
 }
 
-/// Memory for splits, in portions, kept from build to build. Any thread may take a portion.
+/// Memory for splits, in portions, reused by later builds. Any thread may take a portion.
 class NodeArena {
  public:
   static constexpr std::size_t kPortionSplits = 56;
@@ -53,15 +53,15 @@ class NodeArena {
  private:
   std::mutex mutex_;
   std::vector<AlignedBuffer> chunks_;
-  std::size_t chunk_ = 0;  // the one that portions are taken from
-  std::size_t used_ = 0;   // portions of it that are taken
+  std::size_t chunk_ = 0;  // the chunk that portions are taken from
+  std::size_t used_ = 0;   // portions of it in use
 };
 
 /// Hands out splits one by one to a single thread.
 class SplitSource {
  public:
   explicit SplitSource(NodeArena& arena) : arena_(arena) {}
-  /// Not set to anything. Throws std::bad_alloc.
+  /// Returns an uninitialized split. Throws std::bad_alloc.
   BinarySplit* next() {
     if (left_ == 0) {
       next_ = arena_.take_portion();

@@ -23,8 +23,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Calls step(offset, valid, whole) for each vector of a range: `valid` is true for all lanes but those after its end,
-/// and `whole` is std::true_type where it is true for all. Loads from arrays must use load(), which does not touch what
-/// lies behind the end.
+/// and `whole` is std::true_type where it is true for all. Loads from arrays must use load(), which does not read past
+/// the end.
 template <class Step>
 HWY_INLINE void for_lanes(std::int64_t count, const Step& step) {
   const FloatTag d;
@@ -40,7 +40,7 @@ HWY_INLINE hn::Vec<Tag> load(Tag d, const T* from, FloatMask valid, Whole whole)
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
   return hn::MaskedLoad(hn::RebindMask(d, valid), d, from);
 #else
-  // A masked load would read what lies behind the end.
+  // A masked load would read past the end.
   HWY_ALIGN T lanes[kFloatLanes] = {};
   const std::size_t n = hn::CountTrue(FloatTag(), valid);
   for (std::size_t i = 0; i < n; ++i) lanes[i] = from[i];
@@ -48,7 +48,7 @@ HWY_INLINE hn::Vec<Tag> load(Tag d, const T* from, FloatMask valid, Whole whole)
 #endif
 }
 
-/// Stores the first n lanes; what lies behind them, up to `room`, may be overwritten.
+/// Stores the first n lanes; memory after them, up to `room`, may be overwritten.
 template <class Tag, class T>
 HWY_INLINE void store_first(Tag d, hn::Vec<Tag> v, std::int64_t n, std::int64_t room, T* to) {
   if (room >= kFloatLanes) return hn::StoreU(v, d, to);
@@ -62,7 +62,7 @@ HWY_INLINE void store_first(Tag d, hn::Vec<Tag> v, std::int64_t n, std::int64_t 
 #endif
 }
 
-/// A box that grows, a vector of boxes at first.
+/// A growing box, kept as a vector of boxes.
 struct GrowingBox {
   Floats lo[3], hi[3];
 
@@ -81,7 +81,7 @@ struct GrowingBox {
     lo[axis] = hn::IfThenElse(mask, hn::Min(lo[axis], low), lo[axis]);
     hi[axis] = hn::IfThenElse(mask, hn::Max(hi[axis], high), hi[axis]);
   }
-  /// Adding 0 makes +0 of -0, so that the order of minima cannot show.
+  /// Adding 0 turns -0 into +0, so that the result does not depend on the order of minima.
   HWY_INLINE Aabb box() const {
 #if HWY_TARGET == HWY_SCALAR
     HWY_ALIGN float least[8];

@@ -11,8 +11,8 @@
 namespace bihive {
 namespace {
 
-// The children of a wide node from left to right, and the splits between them: axis[i] is where the two sides that meet
-// between children i and i + 1 were split, and depth[i] how many splits lie above that one.
+// The children of a wide node from left to right, and the splits between them: axis[i] is the axis of the split between
+// children i and i + 1, and depth[i] the number of splits above it.
 struct Children {
   int count = 0;
   const BinaryNode* binary[kWidth];
@@ -105,7 +105,7 @@ void fill_orders(const Children& children, WideNode& wide) {
 }  // namespace
 
 WideNode Collapse::make_node(const Job& job, Subtree& subtree, std::vector<Job>& jobs) const {
-  // Choose by cost, but where levels are few see to it that they suffice.
+  // Choose by cost, but by count when few levels remain.
   const bool last_level = job.level >= parameters_.most_levels;
   Children children;
   children.count = 1;
@@ -145,7 +145,7 @@ WideNode Collapse::make_node(const Job& job, Subtree& subtree, std::vector<Job>&
   wide.begin[kWidth] = begin;
   fill_orders(children, wide);
 
-  // Place the inner children side by side, and come to them from left to right.
+  // Place the inner children side by side, and queue them from left to right.
   subtree.levels = std::max(subtree.levels, job.level);
   wide.first_node = static_cast<std::int64_t>(subtree.nodes.size());
   const int inner = children.count - __builtin_popcount(wide.leaf_mask);
@@ -172,7 +172,7 @@ void Collapse::make_subtree(Subtree& subtree) const {
 void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads) {
   parameters_ = parameters;
 
-  // Make the top here; each subtree of at most kSubtreeSpheres spheres is left to a task.
+  // Build the top here; each subtree of at most kSubtreeSpheres spheres becomes a task.
   subtree_count_ = 0;
   top_.nodes.clear();
   top_.nodes.resize(1);

@@ -10,7 +10,7 @@
 namespace bihive {
 
 struct CollapseParameters {
-  int most_levels = kMostLevels;  ///< wide nodes on a way from the root at most, >= 1; what is left becomes leaves
+  int most_levels = kMostLevels;  ///< maximum wide nodes on a path from the root, >= 1; the rest becomes leaves
 };
 
 /// Makes the wide nodes of a binary tree, in subtrees that do not depend on the number of threads.
@@ -23,23 +23,23 @@ class Collapse {
   int levels() const { return levels_; }
   std::int64_t largest_leaf() const { return largest_leaf_; }
 
-  /// Copies the nodes: node_count() places from `to` on.
+  /// Copies the nodes: node_count() entries starting at `to`.
   void copy_to(WideNode* to, int threads) const;
 
   std::int64_t allocated_bytes() const;
 
  private:
-  // A wide node to be made: its place among the nodes of its subtree, the binary node that it stands for, its first
-  // sphere, its level from 1.
+  // A wide node to be built: its index in its subtree, the binary node that it replaces, its first sphere, its level
+  // from 1.
   struct Job {
     std::int64_t place;
     const BinaryNode* binary;
     std::int64_t first;
     int level;
   };
-  // Nodes that one task makes. Their places count from `base` in the tree.
+  // Nodes built by one task. Their indices count from `base` in the tree.
   struct Subtree {
-    Job root;  // its place is among the nodes of the top
+    Job root;  // its index is among the nodes of the top
     WideNode root_node;
     std::vector<WideNode> nodes;
     std::vector<Job> jobs;

@@ -1,4 +1,4 @@
-// How many spheres a wide tree holds: their numbers take 32 bits there, and the largest number marks none.
+// The maximum number of spheres of a wide tree: their numbers have 32 bits, and the largest number means none.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace bihive {
 
 constexpr std::int64_t kMostSpheresOfWideTree = std::numeric_limits<std::uint32_t>::max();
 
-/// An error for more.
+/// Error: more spheres.
 inline Status check_wide_count(std::int64_t spheres) {
   if (spheres <= kMostSpheresOfWideTree) return Done{};
   return Error{"a wide tree holds at most " + std::to_string(kMostSpheresOfWideTree) + " spheres, and there are " +

@@ -1,4 +1,4 @@
-// From the sphere set into the builder's arrays.
+// Loads the sphere set into the builder's arrays.
 
 #if defined(BIHIVE_WIDE_BUILD_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_BUILD_LOAD_INL_H_
@@ -45,7 +45,7 @@ inline InputSummary summarize_spheres(const SphereSet& spheres, std::int64_t beg
       else
         box.add_where(valid, axis, c, c);
     }
-    // Lanes behind the end read as radius 0, which needs no place.
+    // Lanes past the end read as radius 0, which needs no palette entry.
     const Floats r = load(d, from.r + i, valid, whole);
     largest = hn::Max(largest, r);
     smallest = hn::Min(smallest, hn::IfThenElse(valid, r, smallest));
@@ -62,7 +62,7 @@ inline InputSummary summarize_spheres(const SphereSet& spheres, std::int64_t beg
   return summary;
 }
 
-/// The words of the spheres whose ids begin with `id`: their radius classes and ids.
+/// Packed radius classes and ids of the spheres from `id` on.
 HWY_INLINE Words make_words(const SplitContext& context, int palette_size, Floats r, std::int64_t id) {
   const FloatTag d;
   const WordTag dw;

@@ -1,4 +1,4 @@
-// Finds equal spheres among a few, or among a pile of them.
+// Finds equal spheres among a few, or among many duplicates.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace bihive {
 
-/// As many as the count has bits.
+/// One for each bit of the count.
 inline std::int64_t passes_of_sorting(std::int64_t count) {
   std::int64_t bits = 0;
   for (; count > 0; count >>= 1) ++bits;
   return bits;
 }
 
-/// Adds those of the spheres first to first + count - 1 that have an equal there, in no order. Takes n log n.
+/// Adds those of the spheres first to first + count - 1 that have an equal there, in no order. O(n log n).
 void find_repeated(const SphereArrays& spheres, const float* palette, std::int64_t first, std::int64_t count,
                    std::vector<RepeatedSphere>& repeated);
 
-/// The piles among all repeated spheres of a set: groups of more than kWidth equal ones, by their lowest ids. The
-/// others of each pile by their ids.
+/// The groups of duplicates among all repeated spheres of a set: more than kWidth equal ones, ordered by their lowest
+/// ids. The others of each group are ordered by id.
 void find_piles(const std::vector<RepeatedSphere>& repeated, std::vector<Pile>& piles,
                 std::vector<std::uint32_t>& others);
 

@@ -1,4 +1,4 @@
-// Which neighbours of the binary tree should become one wide node: the costs behind that choice, from the leaves up.
+// Costs that decide which neighbours of the binary tree become one wide node, computed from the leaves up.
 //
 // Let F(v, k) be the least surface of wide nodes that the subtree v needs when it may take k slots of the wide node
 // above it. A leaf needs none. Any other takes one slot as a wide node itself, or is split, and its sides share the
@@ -33,7 +33,7 @@ HWY_INLINE void close_node(BinaryNode& node) {
   node.box = left.box;
   node.box.add(right.box);
 
-  // The right side's costs behind sixteen that cannot be paid: shifted by i they stand beside the sums with i slots.
+  // The right side's costs, after sixteen infinite ones: shifted by i they line up with the sums with i slots.
   HWY_ALIGN float shifted[2 * kWidth];
   for (int lane = 0; lane < kWidth; lane += kFloatLanes) {
     hn::Store(hn::Set(d, kInfiniteFloat), d, shifted + lane);
@@ -41,12 +41,12 @@ HWY_INLINE void close_node(BinaryNode& node) {
   }
   Floats sums[kWidth / kFloatLanes];
   for (int v = 0; v < kWidth / kFloatLanes; ++v) {
-    const float* const behind = shifted + kWidth + v * kFloatLanes;
-    sums[v] = hn::LoadU(d, behind - 1);
+    const float* const past = shifted + kWidth + v * kFloatLanes;
+    sums[v] = hn::LoadU(d, past - 1);
     if (left.is_leaf()) continue;
     sums[v] = hn::Add(sums[v], hn::Set(d, left.split->cost[0]));
     for (int i = 2; i < kWidth; ++i)
-      sums[v] = hn::Min(sums[v], hn::Add(hn::LoadU(d, behind - i), hn::Set(d, left.split->cost[i - 1])));
+      sums[v] = hn::Min(sums[v], hn::Add(hn::LoadU(d, past - i), hn::Set(d, left.split->cost[i - 1])));
   }
   HWY_ALIGN float sum[kWidth];
   for (int v = 0; v < kWidth / kFloatLanes; ++v) hn::Store(sums[v], d, sum + v * kFloatLanes);

@@ -1,4 +1,4 @@
-// A range of spheres becomes a binary tree: where to split, and the leaves.
+// Builds a binary tree of a range of spheres: splits and leaves.
 
 #if defined(BIHIVE_WIDE_BUILD_SPLIT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_BUILD_SPLIT_INL_H_
@@ -59,7 +59,7 @@ class Splitter {
       left.count = half_in_full_leaves(range.count, context_.full_leaf);
     }
 
-    // Go on with both sides, or leave one to whoever has time.
+    // Recurse into both sides, or turn one into a task.
     right.first = range.first + left.count;
     right.count = range.count - left.count;
     node.axis = static_cast<std::uint32_t>(axis);
@@ -93,7 +93,7 @@ class Splitter {
  private:
   const SphereArrays& arrays(bool in_final) const { return in_final ? context_.final : context_.scratch; }
 
-  // The surface around spheres with these centres.
+  // The surface of the box around spheres with these centres.
   float area(const Aabb& centres) const {
     const float r = context_.largest_radius;
     return half_area({centres.lo - Vec3f{r, r, r}, centres.hi + Vec3f{r, r, r}});
@@ -105,7 +105,7 @@ class Splitter {
     return area(left) * static_cast<float>(left_leaves) + area(right) * static_cast<float>(right_leaves);
   }
 
-  // Sorts the spheres to the two sides of a plane, and sets the ranges on both sides.
+  // Partitions the spheres by a plane, and sets the ranges of both sides.
   void split_at_plane(const SplitRange& range, int axis, SplitRange& left, SplitRange& right) {
     const SphereArrays& from = arrays(range.in_final);
     const std::int64_t full = context_.full_leaf;
@@ -117,7 +117,7 @@ class Splitter {
     std::int64_t passes = 0;
     SplitPlane plane;
     if (range.depth < kDeepestMidpoint) {
-      // Halve the box. Where no number is between its sides, hi itself is the plane.
+      // Halve the box. If no number lies between its sides, hi itself is the plane.
       const float lo = range.centres.lo[axis], hi = range.centres.hi[axis];
       plane.axis[0] = axis;
       plane.at[0] = lo + (hi - lo) * 0.5F;
@@ -165,7 +165,7 @@ class Splitter {
     return hn::GatherIndex(d, context_.palette, hn::BitCast(hn::RebindToSigned<WordTag>(), classes));
   }
 
-  // Puts the spheres of a leaf into their place, and finds their box and equal spheres.
+  // Moves the spheres of a leaf to their final position, and finds their box and equal spheres.
   void finish_leaf(const SplitRange& range) {
     const FloatTag d;
     const WordTag dw;

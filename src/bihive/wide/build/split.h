@@ -28,7 +28,7 @@ struct SphereArrays {
   float* axis(int k) const { return k == 0 ? x : k == 1 ? y : z; }
 };
 
-/// At most 31 different radii above 0, in the order in which they are met; or the fact that there are more.
+/// Up to 31 different radii above 0, in order of appearance; or the fact that there are more.
 struct RadiusPalette {
   static constexpr int kMost = 31;
   static constexpr std::uint32_t kZeroClass = 31;
@@ -46,7 +46,7 @@ struct RadiusPalette {
   }
 };
 
-/// The facts that one look at the spheres tells.
+/// Facts found in one pass over the spheres.
 struct InputSummary {
   Aabb centres;
   float largest_radius = 0;
@@ -57,19 +57,19 @@ struct InputSummary {
 
 /// The state that all tasks of a build share.
 struct SplitContext {
-  SphereArrays scratch, final;  ///< spheres wander between the two; leaves end in `final`
+  SphereArrays scratch, final;  ///< spheres move between the two; leaves end in `final`
   alignas(64) float palette[32] = {};
   float largest_radius = 0;
   std::int64_t full_leaf = kWidth;
   NodeArena* arena = nullptr;
 
   std::atomic<bool> out_of_memory{false};
-  std::atomic<std::int64_t> spheres_read{0};  ///< the work, counted: each sphere once for every pass over it
+  std::atomic<std::int64_t> spheres_read{0};  ///< work done: each sphere counts once per pass
   std::mutex mutex;
   std::vector<RepeatedSphere> repeated;  ///< in no order
 };
 
-/// Spheres first to first + count - 1 of one of the two arrays, that become the tree under `node`.
+/// Spheres first to first + count - 1 of one of the two arrays, which become the tree under `node`.
 struct SplitRange {
   BinaryNode* node = nullptr;
   Aabb centres;  ///< of their centres
@@ -79,14 +79,14 @@ struct SplitRange {
   bool coincident = false;  ///< all centres are equal, and repeated spheres are known already
 };
 
-/// For the top of a large set: the box of all centres, halved nine times along its longest side, is 512 cells.
+/// Grid for the top of a large set: the box of all centres, halved nine times along its longest side, into 512 cells.
 struct CellGrid {
   static constexpr int kBits = 9;
   static constexpr int kCells = 1 << kBits;
   float lo[3] = {}, scale[3] = {};  ///< cell coordinate of c: (c - lo) * scale, cut to [0, last]
   int last[3] = {};
-  int axis[kBits] = {};                 ///< of the halvings from the top; bit kBits - 1 - i of a cell is halving i
-  std::uint16_t place[3][kCells] = {};  ///< cell coordinate -> its bits of the cell
+  int axis[kBits] = {};                 ///< halving axes from the top; bit kBits - 1 - i of a cell is halving i
+  std::uint16_t place[3][kCells] = {};  ///< cell coordinate -> its bits of the cell number
 
   explicit CellGrid(const Aabb& centres);
 };
@@ -95,10 +95,10 @@ namespace wide {
 
 InputSummary summarize(const SphereSet& spheres, std::int64_t begin, std::int64_t end);
 
-/// Writes spheres begin to end - 1 to the same places of the scratch arrays.
+/// Writes spheres begin to end - 1 to the same positions in the scratch arrays.
 void load_spheres(const SphereSet& spheres, std::int64_t begin, std::int64_t end, SplitContext& context);
 
-/// cell[i - begin] of each sphere, and how many each cell has.
+/// Computes cell[i - begin] of each sphere, and the number of spheres per cell.
 void find_cells(const SphereSet& spheres, std::int64_t begin, std::int64_t end, const CellGrid& grid,
                 std::uint16_t* cell, std::uint32_t* counts);
 
@@ -113,7 +113,7 @@ Aabb bound_centres(const SplitContext& context, const SplitRange& range);
 /// ranges become tasks in `list`.
 void split_range(SplitContext& context, const SplitRange& range, TaskList& list);
 
-/// When all tasks are done: boxes and costs of the nodes with more than kTaskSpheres spheres.
+/// To be called when all tasks are done: sets boxes and costs of the nodes with more than kTaskSpheres spheres.
 void close_tops(BinaryNode& root);
 
 }  // namespace wide

@@ -1,4 +1,4 @@
-// Planes between spheres: which spheres are below, how many, and a plane that leaves a given number below.
+// Split planes: which spheres are below, how many, and the plane that leaves a given number below.
 
 #if defined(BIHIVE_WIDE_BUILD_SPLIT_PLANE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_BUILD_SPLIT_PLANE_INL_H_
@@ -55,7 +55,7 @@ HWY_INLINE void by_ties(const SplitPlane& plane, const Body& body) {
     body(std::false_type());
 }
 
-/// How many centres of a range are below.
+/// The number of centres of a range below the plane.
 HWY_INLINE std::int64_t count_below(const SphereArrays& spheres, std::int64_t first, std::int64_t count,
                                     const SplitPlane& plane) {
   const FloatTag d;
@@ -91,8 +91,7 @@ HWY_INLINE void split_boxes(const SphereArrays& spheres, std::int64_t first, std
   right = above.box();
 }
 
-/// Moves spheres below the plane to the front of the same range of `to`, the others behind them, each in the order in
-/// which they are.
+/// Moves spheres below the plane to the front of the same range of `to`, the others after them. Stable.
 template <bool kPlainRadii>
 HWY_INLINE void partition(const SphereArrays& from, const SphereArrays& to, std::int64_t first, std::int64_t count,
                           const SplitPlane& plane) {
@@ -143,7 +142,7 @@ inline float from_ordered_bits(std::int32_t bits) {
   return v;
 }
 
-/// The nearest centres on both sides of a plane, of those that only its last component splits.
+/// The nearest centres on both sides of a plane, among those that only its last component splits.
 HWY_INLINE void neighbours(const SphereArrays& spheres, std::int64_t first, std::int64_t count, const SplitPlane& plane,
                            int last, float& below, float& above) {
   const FloatTag d;
@@ -164,7 +163,7 @@ HWY_INLINE void neighbours(const SphereArrays& spheres, std::int64_t first, std:
   above = hn::GetLane(hn::MinOfLanes(d, smallest));
 }
 
-/// A plane across `axis` with `wanted` of the centres below it, or if many coincide as near to that as they allow; at
+/// A plane across `axis` with `wanted` of the centres below it, or as close to that as coincident centres allow; at
 /// least one on each side. `box` is that of the centres, and not a point. Other axes split those on the plane.
 HWY_INLINE SplitPlane plane_by_count(const SphereArrays& spheres, std::int64_t first, std::int64_t count,
                                      std::int64_t wanted, int axis, const Aabb& box) {
@@ -195,7 +194,7 @@ HWY_INLINE SplitPlane plane_by_count(const SphereArrays& spheres, std::int64_t f
       plane.below = count_below(spheres, first, count, plane);
       ++plane.passes;
       if (plane.below == wanted) return plane;
-      // Nothing lies between a plane and its neighbours: go on from those where guesses are not soon right.
+      // Nothing lies between a plane and its neighbours: if guesses do not converge, continue from those.
       float before = plane.at[k], after = plane.at[k];
       if (round + 1 >= kInterpolations) {
         neighbours(spheres, first, count, plane, k, before, after);
@@ -212,7 +211,7 @@ HWY_INLINE SplitPlane plane_by_count(const SphereArrays& spheres, std::int64_t f
     plane.at[k] = from_ordered_bits(static_cast<std::int32_t>(low));
   }
 
-  // Equal centres stay together: on the side that has less, and not where they would leave the other side empty.
+  // Equal centres stay together: on the side that has fewer, unless that would leave the other side empty.
   if (low_below == 0 || (high_below < count && high_below - wanted < wanted - low_below)) {
     plane.below = high_below;
     plane.at[2] = from_ordered_bits(ordered_bits(plane.at[2]) + 1);

@@ -1,5 +1,4 @@
-// The constants of the builder that choose between ways. They change the speed of the build or of rays, and the tree;
-// the answers of rays stay the same.
+// Tuning constants of the builder. They change the tree, and the speed of the build or of rays, but never an answer.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +21,12 @@ constexpr std::int64_t kSubtreeSpheres = 65536;
 
 // ---- Where to split ----
 
-/// From this depth on ranges are halved by count: a guard against hostile sets.
+/// At this depth and below, ranges are halved by count: a guard against hostile sets.
 constexpr int kDeepestMidpoint = 48;
 /// Ranges up to this size choose between the midpoint and a plane that leaves full leaves.
 constexpr std::int64_t kChoosingSpheres = 4096;
 /// The midpoint must be this much better than full leaves, which save memory: more so in the ranges of up to two nodes'
-/// spheres that decide how full the lowest nodes are. Chosen so that molecules stay below 19 bytes a sphere.
+/// spheres that decide how full the lowest nodes are. Chosen so that molecules stay below 19 bytes per sphere.
 constexpr std::int64_t kLowestSpheres = 512;
 constexpr float kLowestBias = 0.87F;
 constexpr float kMidpointBias = 0.95F;
@@ -36,8 +35,7 @@ constexpr int kInterpolations = 4;
 
 // ---- Which children a wide node gets ----
 
-/// So many levels before the last allowed one, children are no longer chosen by cost but by count, so that levels
-/// suffice on any set.
+/// In this many last levels, children are chosen by count instead of cost, so that the levels suffice for any set.
 constexpr int kLevelsByCost = 40;
 
 }  // namespace bihive

@@ -34,7 +34,7 @@ struct Chunks {
   std::int64_t end(std::int64_t chunk) const { return std::min(total, (chunk + 1) * size); }
 };
 
-// Arrays one behind the other: four with a palette, else five, each on a cache line's border.
+// Consecutive arrays: four with a palette, else five, each aligned to a cache line.
 SphereArrays place_arrays(std::int64_t spheres, bool has_palette, AlignedBuffer& memory) {
   const auto padded = static_cast<std::size_t>(spheres + kWidth);
   const std::size_t an_array = (padded * sizeof(float) + 63) / 64 * 64;
@@ -59,7 +59,7 @@ void pad(const SphereArrays& arrays, std::int64_t spheres) {
 
 }  // namespace
 
-// Working memory, and what outlives a build: a tree that nobody holds any more, whose memory the next one takes.
+// Working memory, and a tree that nobody holds any more, whose memory the next build reuses.
 struct WideBuilder::State {
   std::mutex mutex;
   std::unique_ptr<WideTree> spare;
@@ -102,7 +102,7 @@ InputSummary WideBuilder::State::summarize(const SphereSet& spheres, const Chunk
   return all;
 }
 
-// Puts the spheres into the scratch arrays cell by cell, in each cell by id. begins[c] is the first place of cell c.
+// Puts the spheres into the scratch arrays cell by cell, in each cell by id. begins[c] is the first position of cell c.
 void WideBuilder::State::sort_into_cells(const SphereSet& spheres, const CellGrid& grid, SplitContext& context,
                                          int threads, std::vector<std::int64_t>& begins) {
   const Chunks chunks(spheres.size());
@@ -113,7 +113,7 @@ void WideBuilder::State::sort_into_cells(const SphereSet& spheres, const CellGri
     wide::find_cells(spheres, chunks.begin(i), chunks.end(i), grid, cells.data() + chunks.begin(i), counts_of(i));
   });
 
-  // Turn counts into the first place of each cell and chunk.
+  // Turn counts into the first position of each cell and chunk.
   begins.assign(CellGrid::kCells + 1, 0);
   std::uint32_t next = 0;
   for (int cell = 0; cell < CellGrid::kCells; ++cell) {
@@ -131,11 +131,11 @@ void WideBuilder::State::sort_into_cells(const SphereSet& spheres, const CellGri
   });
 }
 
-// Makes the splits at the top of the tree from cells: the bits of a cell's number are the splits. Returns the ranges
-// below them, whose boxes are not set.
+// Builds the splits at the top of the tree from cells: the bits of a cell's number are the splits. Returns the ranges
+// below them, without their boxes.
 std::vector<SplitRange> WideBuilder::State::split_cells(const CellGrid& grid, const std::vector<std::int64_t>& begins,
                                                         std::int64_t most_spheres, BinaryNode& root) {
-  // Cells first to last - 1; the halving that comes next.
+  // Cells first to last - 1, and the next halving.
   struct CellRange {
     BinaryNode* node;
     int first, last, halving, depth;
@@ -150,7 +150,7 @@ std::vector<SplitRange> WideBuilder::State::split_cells(const CellGrid& grid, co
     const std::int64_t first = begin_of(here.first);
     const std::int64_t count = begin_of(here.last) - first;
 
-    // Go down past halves without spheres.
+    // Skip halves without spheres.
     int middle = 0;
     bool split = false;
     while (!split && here.halving < CellGrid::kBits && count > most_spheres) {
@@ -184,7 +184,7 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
                                BinaryNode& root, int threads) {
   const std::int64_t count = spheres.size();
   if (count <= std::max(kGridSpheres, context.full_leaf)) {
-    // Take the spheres as they come.
+    // Take the spheres in their order.
     const Chunks chunks(count);
     parallel_for(threads, chunks.count,
                  [&](std::int64_t i) { wide::load_spheres(spheres, chunks.begin(i), chunks.end(i), context); });
@@ -212,7 +212,7 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
   wide::close_tops(root);
 }
 
-// Every sphere in a leaf. The ids need room for `most_ids` of them.
+// Puts every sphere in a leaf. The ids need room for `most_ids` of them.
 void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameters& parameters, int threads,
                                    std::int64_t most_ids, WideTree& tree) {
   const std::int64_t count = spheres.size();
@@ -229,7 +229,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   tree.spheres = {};
   if (count == 0) return;
 
-  // Look at the spheres, and make room for them.
+  // Examine the spheres, and allocate their arrays.
   const InputSummary summary = summarize(spheres, Chunks(count), threads);
   const bool has_palette = !summary.palette.overflow && most_ids <= std::int64_t{WideSpheres::kIdMask};
   SplitContext context;
@@ -252,7 +252,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   split(spheres, summary, context, root, threads);
   collapse.run(root, shape, threads);
 
-  // Keep the result, with room for the few nodes more that a next frame may need.
+  // Keep the result, with spare room for a few more nodes in the next frame.
   const auto node_bytes = static_cast<std::size_t>(collapse.node_count()) * sizeof(WideNode);
   if (tree.node_memory.capacity() < node_bytes) tree.node_memory.reserve(node_bytes + node_bytes / 8);
   auto* const nodes = static_cast<WideNode*>(tree.node_memory.data());
@@ -276,8 +276,8 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   std::copy(context.palette, context.palette + 32, result.palette.begin());
 }
 
-// Spheres that no plane parts lie in one leaf, and a ray would test all of them. So where more than a leaf's spheres
-// are equal, the tree is made again without all but the first of them.
+// Spheres that no plane separates lie in one leaf, and a ray would test all of them. So if more than a leaf's spheres
+// are equal, the tree is built again with only the first of them.
 void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
                                WideTree& tree) {
   build_all(spheres, parameters, threads, spheres.size(), tree);
@@ -298,12 +298,12 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
     else
       kept.push_back(id);
   }
-  // The nodes are others and fewer, so their memory would only be held beside the new.
+  // The new nodes are fewer, so the memory of the old ones is released first.
   collapse = Collapse();
   tree.node_memory = AlignedBuffer();
   build_all(spheres.part(kept), parameters, threads, spheres.size(), tree);
 
-  // Give the spheres their own ids, and the tree what it must know of all.
+  // Restore the spheres' own ids, and the tree's facts about all spheres.
   const SphereArrays arrays = place_arrays(tree.placed, tree.spheres.has_palette, tree.sphere_memory);
   const std::uint32_t mask = tree.spheres.id_mask();
   for (std::int64_t slot = 0; slot < tree.placed; ++slot) {
@@ -344,7 +344,7 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
     }
     state_->build(spheres, parameters, threads, *tree);
 
-    // Its memory comes back when the last holder lets go.
+    // Its memory returns to the builder when the last holder releases it.
     const auto recycle = [keep = std::weak_ptr<State>(state_)](const WideTree* done) {
       std::unique_ptr<WideTree> owned(const_cast<WideTree*>(done));
       if (const auto state = keep.lock()) state->give_back(std::move(owned));

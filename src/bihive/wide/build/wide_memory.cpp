@@ -9,24 +9,24 @@
 namespace bihive {
 namespace {
 
-// Nodes a full leaf on the most scattered sets measured (packed sets need 1 / 15), and where leaves are so small that
+// Nodes per full leaf on the most scattered sets measured (packed sets need 1 / 15), and where leaves are so small that
 // nodes are most of the tree.
 double scattered_nodes(std::int64_t full_leaf) {
   return full_leaf < 4 ? 0.35 : 0.16;
 }
 
-// Where distances fall exponentially, leaves can be as small as one sphere or two, and nodes mostly empty.
+// If distances fall exponentially, leaves can be as small as one or two spheres, and nodes mostly empty.
 constexpr double kSmallestLeaf = 1.5;
 double emptiest_node(std::int64_t full_leaf) {
   return full_leaf < 4 ? 3 : 6;
 }
 
-// A set of a usual kind: nodes and splits for each full leaf; bytes of a sphere, between those of both layouts.
+// A typical set: nodes and splits per full leaf; bytes per sphere, between those of both layouts.
 constexpr double kUsualNodes = 0.075, kUsualSplits = 1.1, kUsualSphere = 18;
 
 constexpr std::int64_t kCellCountBytes = kMostChunks * CellGrid::kCells * 4;
 constexpr std::int64_t kHugePage = std::int64_t{1} << 21;
-constexpr std::size_t kFirstSplits = 4 * NodeArena::kPortionSplits;  // of the first chunk
+constexpr std::size_t kFirstSplits = 4 * NodeArena::kPortionSplits;  // in the first chunk
 
 }  // namespace
 
@@ -39,7 +39,7 @@ WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParamet
   const std::int64_t leaves = (spheres + full_leaf - 1) / full_leaf;
   const std::int64_t padded = spheres + kWidth;
 
-  // Levels bound the nodes too: the last ones have larger leaves.
+  // The number of levels bounds the nodes too: leaves of the last level are larger.
   double most_nodes = double(leaves) * scattered_nodes(full_leaf) + 2;
   const double peak_leaves = double(spheres) / std::min(kSmallestLeaf, double(full_leaf));
   double peak_nodes = peak_leaves / emptiest_node(full_leaf) + 2;
@@ -59,15 +59,15 @@ WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParamet
   prediction.low_bytes = kTree + 16 * padded + low_nodes * kNode;
   prediction.high_bytes = kTree + 20 * padded + static_cast<std::int64_t>(most_nodes) * kNode;
 
-  // While it is made: the spheres twice, their cells, every one repeated, splits and nodes in memory that doubles where
-  // it grows, and borders of huge pages.
+  // During the build: the spheres twice, their cells, every sphere repeated, splits and nodes in doubling memory, and
+  // huge-page alignment.
   constexpr double kSpheresTwice = 2 * 20 + 2, kRepeated = 2 * sizeof(RepeatedSphere);
   const double nodes = peak_nodes * double(kNode);
   prediction.most_bytes = static_cast<std::int64_t>((kSpheresTwice + kRepeated) * double(padded) +
                                                     2 * peak_leaves * double(sizeof(BinarySplit)) + 3 * nodes) +
                           (std::int64_t{16} << 20);
 
-  // Leaves are nearly full as a rule. Splits of them, and nodes: in subtrees, then together.
+  // Leaves are usually nearly full. Their splits, and nodes: in subtrees, then together.
   const double cells = spheres > kGridSpheres ? 2.0 * double(padded) + double(kCellCountBytes) : 0;
   const double usual_nodes = std::min(double(leaves) * kUsualNodes + 2, most_nodes);
   const double rounded = 16.0 * double(padded) < double(kHugePage) ? 0 : double(kHugePage);

@@ -17,7 +17,7 @@ double largest_extent(const Aabb& box) {
   return largest;
 }
 
-// Bits of a cell's place along each axis.
+// Bits of a cell's position along each axis.
 int bits_for(std::int64_t rays) {
   int bits = 0;
   while ((8 * kRaysPerCell) << (3 * (bits + 1)) <= rays) ++bits;
@@ -31,7 +31,7 @@ bool scattered(const WideTree& tree, const RaySpan& rays) {
   const double far = largest_extent(tree.aabb) * kFarInExtents;
   int looked = 0;
   int far_apart = 0;
-  const std::int64_t step = (rays.count / kLooks) | 1;  // odd: rays may come in groups of two, four, ...
+  const std::int64_t step = (rays.count / kCoherenceSamples) | 1;  // odd: rays may come in groups of two, four, ...
   for (std::int64_t i = 0; i + 1 < rays.count; i += step, ++looked) {
     double most = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -47,7 +47,7 @@ void CellOrder::find(const WideTree& tree, const RaySpan& rays, std::vector<std:
   order_by_cells(cells_.data(), cells_.size(), std::size_t{8} << (3 * bits), ends_, order);
 }
 
-// The octant of the direction above the origin's place in a grid over the spheres, along a Z-order curve.
+// The octant of the direction, followed by the origin's position in a grid over the spheres, along a Z-order curve.
 void CellOrder::number_cells(const WideTree& tree, const RaySpan& rays, int bits) {
   const auto side = static_cast<float>(1 << bits);
   float scale[3], shift[3];
@@ -60,7 +60,7 @@ void CellOrder::number_cells(const WideTree& tree, const RaySpan& rays, int bits
   const auto place = [&](std::size_t i, int axis) {
     const float x = rays.origin[axis][i] * scale[axis] - shift[axis];
     const float above = x > 0 ? x : 0;  // 0 if it is not a number
-    // The bits of the place, each three from the next.
+    // The bits of the position, three apart.
     auto k = static_cast<std::uint32_t>(static_cast<std::int32_t>(above < side - 1 ? above : side - 1));
     k = (k | k << 8) & 0x0000F00FU;
     k = (k | k << 4) & 0x000C30C3U;

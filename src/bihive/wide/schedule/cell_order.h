@@ -1,6 +1,6 @@
-// Order by cell: for rays that have nothing in common with their neighbours, as random ones have not. In a large tree
-// each reads parts of it that no other ray near it in memory reads. Sorted by where they start and which way they go,
-// those that read the same parts follow each other.
+// Order by cell: for rays that have nothing in common with their neighbours, such as random ones. In a large tree each
+// reads nodes that no neighbour in memory reads. Sorted by origin and direction, rays that read the same nodes follow
+// each other.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace bihive::wide {
 
-/// Are there so many rays, most of them far from the next, and is the tree so large, that sorting pays?
+/// Does sorting pay? It does for many rays, most of them far from the next, in a large tree.
 bool scattered(const WideTree& tree, const RaySpan& rays);
 
 /// Finds the order; keeps its working memory.
 class CellOrder {
  public:
-  /// order[k] is the number of the ray that comes k-th. Any rays may come, below 2^32.
+  /// order[k] is the number of the k-th ray. Any rays are valid, fewer than 2^32.
   void find(const WideTree& tree, const RaySpan& rays, std::vector<std::uint32_t>& order);
 
  private:

@@ -1,4 +1,4 @@
-// The order of rays by the cells that they belong to.
+// Orders rays by their cells.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace bihive::wide {
 
-/// The stable order of `count` rays by their cells, which are below cell_count: order[k] is the number of the ray that
-/// comes k-th. count: below 2^32. `ends` is working memory.
+/// The stable order of `count` rays by their cells, which are below cell_count: order[k] is the number of the k-th ray.
+/// count: below 2^32. `ends` is working memory.
 inline void order_by_cells(const std::uint32_t* cells, std::size_t count, std::size_t cell_count,
                            std::vector<std::uint32_t>& ends, std::vector<std::uint32_t>& order) {
   // Count, then place.

@@ -19,13 +19,13 @@
 #define BIHIVE_WIDE_SCHEDULE_LIGHT_ORDER_CPP_ONCE
 namespace bihive::wide {
 
-/// A map of the directions of rays: seen along the axis `main`, those around it lie in the middle.
+/// A map of ray directions, centred on the axis `main`.
 struct DirectionMap {
-  int axis[3];  ///< the two across, and the main one
-  float sign;   ///< of the main one
+  int axis[3];  ///< the two minor ones, and the main one
+  float sign;   ///< along the main one
 };
 
-/// Bounds of the places in the map.
+/// Bounds of the positions in the map.
 struct MapBounds {
   float least[2], largest[2];
 };
@@ -38,8 +38,8 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The place of each direction in the map: an octahedron unfolded to a square of side 2. `u` and `v` are written to the
-// next whole vector. Returns their bounds.
+// The position of each direction in the map: an octahedron unfolded to a square of side 2. `u` and `v` are written up
+// to the next whole vector. Returns their bounds.
 wide::MapBounds map_directions(const wide::DirectionMap& map, const RaySpan& rays, float* u, float* v) {
   const FloatTag d;
   const auto one = hn::Set(d, 1.0F);
@@ -68,7 +68,7 @@ wide::MapBounds map_directions(const wide::DirectionMap& map, const RaySpan& ray
     const auto corner_y = hn::CopySign(hn::Sub(one, hn::Abs(x)), y);
     x = hn::IfThenElse(behind, corner_x, x);
     y = hn::IfThenElse(behind, corner_y, y);
-    // NaN and infinite directions get a place too: it does not matter where.
+    // NaN and infinite directions get some position: any will do.
     x = hn::IfThenElse(hn::Le(hn::Abs(x), one), x, zero);
     y = hn::IfThenElse(hn::Le(hn::Abs(y), one), y, zero);
     hn::StoreU(x, d, u + i);
@@ -82,7 +82,7 @@ wide::MapBounds map_directions(const wide::DirectionMap& map, const RaySpan& ray
           {hn::GetLane(hn::MaxOfLanes(d, high_u)), hn::GetLane(hn::MaxOfLanes(d, high_v))}};
 }
 
-// The cell of each place, numbered along a Z-order curve.
+// The cell of each position, numbered along a Z-order curve.
 void number_cells(const wide::MapBounds& bounds, int bits, const float* u, const float* v, std::int64_t count,
                   std::uint32_t* cells) {
   const FloatTag d;
@@ -121,7 +121,7 @@ namespace {
 // Vectors are stored whole.
 constexpr std::int64_t kPadding = 16;
 
-// Some rays tell the axis that most of the way goes along, and how far it is on average.
+// A sample of rays gives the dominant axis, and the mean distance.
 struct Surroundings {
   DirectionMap map;
   double distance;  // the sum along the three axes
@@ -150,7 +150,7 @@ double square(double x) {
   return x * x;
 }
 
-// Would beams be narrow? The rays cover at most what the map says, and what matters is at most the set.
+// Would beams be narrow? The map bounds the rays, and the set bounds what they can meet.
 bool dense(const WideTree& tree, std::int64_t count, const MapBounds& bounds, double distance) {
   double area = square(distance * tree.scale);
   for (int k = 0; k < 2; ++k) area *= double(bounds.largest[k]) - double(bounds.least[k]);
@@ -187,7 +187,7 @@ bool LightOrder::find(const WideTree& tree, const RaySpan& rays, std::vector<std
 
 bool converge(const RaySpan& rays) {
   if (rays.count < kFewestToLight) return false;
-  // All within rounding of where the first one leads. A few rays tell almost always.
+  // Do all end within rounding of the first one's end? A few rays nearly always decide.
   float point[3], slack[3];
   for (int axis = 0; axis < 3; ++axis) point[axis] = rays.origin[axis][0] + rays.direction[axis][0];
   for (std::int64_t step : {rays.count / 8, std::int64_t{1}}) {

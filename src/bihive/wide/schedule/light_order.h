@@ -1,5 +1,5 @@
-// Order by light: for rays that all lead to one point, as shadow rays to a light do, but start on surfaces everywhere,
-// as those of what mirrors and glass show do. Sorted by direction, 64 neighbours are a narrow beam.
+// Order by light: for rays that all lead to one point, as shadow rays to a light do, but start on scattered surfaces,
+// such as those seen in mirrors and glass. Sorted by direction, 64 neighbours are a narrow beam.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace bihive::wide {
 
-/// Are there enough rays, and do all of them lead to one point at t = 1, within rounding? A few rays tell almost
-/// always.
+/// Are there enough rays, and do all of them lead to one point at t = 1, within rounding? A few rays nearly always
+/// decide.
 bool converge(const RaySpan& rays);
 
 /// Finds the order; keeps its working memory.
 class LightOrder {
  public:
-  /// order[k] is the number of the ray that comes k-th; rays that go into a sphere come last. False: the rays are too
-  /// far apart for beams, and no order was found.
+  /// order[k] is the number of the k-th ray; rays that go into a sphere come last. False: the rays are too far apart
+  /// for beams, and no order was found.
   bool find(const WideTree& tree, const RaySpan& rays, std::vector<std::uint32_t>& order);
 
  private:

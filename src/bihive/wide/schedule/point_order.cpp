@@ -9,7 +9,7 @@
 namespace bihive::wide {
 namespace {
 
-// Bits of a cell's place along each axis.
+// Bits of a cell's position along each axis.
 int bits_of_cells(std::int64_t points) {
   int bits = 0;
   while (bits < kMostPointCellBits && (kPointsPerCell << (3 * (bits + 1))) <= points) ++bits;

@@ -1,5 +1,4 @@
-// Scattered points in the order of the cells in which they lie, so that neighbours walk the same nodes one after the
-// other.
+// Orders scattered points by cell, so that neighbours visit the same nodes one after the other.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +8,8 @@
 
 namespace bihive::wide {
 
-/// order[k] is the number, in `points`, of the point that comes k-th: in the order of cells where that pays, else as
-/// they are. At most 2^32 - 1 points.
+/// order[k] is the number, in `points`, of the k-th point: in the order of cells where that pays, else unchanged. At
+/// most 2^32 - 1 points.
 class PointOrder {
  public:
   void find(const WideTree& tree, const PointSpan& points, std::vector<std::uint32_t>& order);

@@ -1,4 +1,4 @@
-// Checks the points, sorts them, hands chunks of them to threads, and puts the answers in place.
+// Checks the points, sorts them, hands chunks of them to threads, and stores the answers in the caller's order.
 #include "bihive/wide/point_queries.h"
 
 #include <algorithm>
@@ -46,8 +46,8 @@ Status check_points(const PointSpan& points) {
   return Done{};
 }
 
-// Calls answer(i) for each point, in an order that serves the cache: chunk by chunk on threads. begin(chunks) comes
-// before the chunks of a part, end(first, order) after them. False: there was not enough memory.
+// Calls answer(i) for each point, in an order that serves the cache: chunk by chunk on threads. begin(chunks) is called
+// before the chunks of a batch, end(first, order) after them. False: there was not enough memory.
 template <class Begin, class Answer, class End>
 bool for_each_point(const WideTree& tree, const PointSpan& points, int threads, const Begin& begin,
                     const Answer& answer, const End& end) {
@@ -104,7 +104,7 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
           count_of(i) = static_cast<std::int64_t>(here.size() - known);
         },
         [&](std::int64_t first, const std::vector<std::uint32_t>& order) {
-          // Turn the counts of this part into places, then copy.
+          // Turn the counts of this batch into offsets, then copy.
           const auto part = static_cast<std::int64_t>(order.size());
           for (std::int64_t i = first; i < first + part; ++i) count_of(i) += lists.begin[static_cast<std::size_t>(i)];
           const auto total = static_cast<std::size_t>(lists.begin[static_cast<std::size_t>(first + part)]);

@@ -12,7 +12,7 @@ void reorder(const T* from, const std::vector<std::uint32_t>& order, bool all, s
   const std::size_t n = order.size();
   to.resize(from == nullptr ? 0 : n);
   if (from == nullptr) return;
-  // Into the cache in the order of memory, out of it in any other.
+  // Prefetch in memory order; then gather from the cache in any order.
   if (all)
     for (std::size_t i = 0; i < n; i += 64 / sizeof(T)) __builtin_prefetch(from + i);
   for (std::size_t k = 0; k < n; ++k) to[k] = from[order[k]];
@@ -39,7 +39,7 @@ void ReorderedBatch::gather(const RaySpan& rays) {
   }
   reorder(rays.leaves, order_, all, rays_.leaves);
   reorder(rays.t_min, order_, all, rays_.t_min);
-  // Mostly all rays end at the same t, as at a light, and none goes into a sphere.
+  // Usually all rays end at the same t, as at a light, and none goes into a sphere.
   if (all && rays.t_max != nullptr && all_equal(rays.t_max, n)) {
     rays_.t_max.assign(n, rays.t_max[0]);
   } else {

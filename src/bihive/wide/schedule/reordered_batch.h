@@ -1,4 +1,4 @@
-// Rays of a span in another order, copied side by side; their answers go back to the places of the rays.
+// Rays of a span copied in another order; their answers are scattered back to the rays.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace bihive::wide {
 
-/// Use: fill order(), gather(), answer rays() (or a part of them) into hits() or hidden(), put the answers back. Memory
+/// Use: fill order(), gather(), answer rays() (or some of them) into hits() or hidden(), put the answers back. Memory
 /// is kept for the next use.
 class ReorderedBatch {
  public:
-  /// order()[k] is the number of the ray that comes k-th: each number at most once.
+  /// order()[k] is the number of the k-th ray: each number at most once.
   std::vector<std::uint32_t>& order() { return order_; }
 
   void gather(const RaySpan& rays);

@@ -1,5 +1,5 @@
-// Which order the rays of a call take, and which walker answers them. A walker returns the rays that are not for it;
-// the next pass answers those. No pass calls an earlier one:
+// Chooses the order of a call's rays, and the traversal that answers them. A traversal returns the rays that it is not
+// made for; the next pass answers those. No pass calls an earlier one:
 //
 //   closest hits   blocks: beams -> the remaining ones: lists
 //                  any:    scattered? in the order of cells: lists; else lists
@@ -7,7 +7,7 @@
 //                  any:    to one light? in that order: beams -> the remaining ones: lists
 //                          else scattered? in the order of cells: lists
 //                          else lists
-//   all hits       beams -> the remaining ones, by the sphere that they leave: beams -> the rest: the scalar walk
+//   all hits       beams -> the remaining ones, by the sphere that they exit: beams -> the rest: scalar traversal
 //
 // Lists answer all rays that beams do not take at all (beams_take()).
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace bihive {
 namespace wide {
 namespace {
 
-// Kept by each thread between calls.
+// Each thread keeps it between calls.
 struct Memory {
   CellOrder by_cell;
   LightOrder by_light;
@@ -43,15 +43,15 @@ Memory& memory_of_this_thread() {
   return *memory;  // NOLINT(clang-analyzer-cplusplus.NewDelete): it takes the memory for freed at once
 }
 
-// Calls body(first, count) for one piece of `total` after the other, each of at most `at_a_time`.
+// Calls body(first, count) for consecutive pieces of `total`, each of at most `at_a_time`.
 template <class Body>
 void for_some(std::int64_t total, std::int64_t at_a_time, const Body& body) {
   for (std::int64_t first = 0; first < total; first += at_a_time) body(first, std::min(at_a_time, total - first));
 }
 
 // Sorts rays by cells, many at a time. Calls answer(batch, some, from, first) for one tile after the other: `some` are
-// the rays of the batch from number `from` on, and the batch holds rays of the span from number `first` on. Small
-// tiles, so that answers go back to their places while they are in the cache.
+// the rays of the batch from number `from` on, and the batch holds rays of the span from number `first` on. Tiles are
+// small, so that answers are scattered back while they are in the cache.
 template <class Answer>
 void in_cell_order(const WideTree& tree, const RaySpan& rays, const Answer& answer) {
   Memory& memory = memory_of_this_thread();
@@ -65,8 +65,8 @@ void in_cell_order(const WideTree& tree, const RaySpan& rays, const Answer& answ
   });
 }
 
-// Rays that remain after a walker. Long runs go to in_place(first, count); the others are gathered in `batch`, and
-// gathered() is called whenever it is full.
+// Handles the rays that remain after a traversal. Long runs go to in_place(first, count); the others are gathered in
+// `batch`, and gathered() is called whenever it is full.
 template <class InPlace, class Gathered>
 void for_remaining(const RaySpan& rays, const RemainingRays& remaining, ReorderedBatch& batch, const InPlace& in_place,
                    const Gathered& gathered) {
@@ -153,7 +153,7 @@ bool beams_pay(const SortedBeams& trial, std::int64_t tried) {
   return trial.remaining.count() <= tried / 2 && trial.spheres_met <= answered * kMostSpheresMet;
 }
 
-// Sorted beams, or lists where the rays are not for those.
+// Sorted beams, or lists for rays that do not suit beams.
 void occluded_to_light(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   Memory& memory = memory_of_this_thread();
   ReorderedBatch& batch = memory.sorted;
@@ -163,7 +163,7 @@ void occluded_to_light(const WideTree& tree, const RaySpan& rays, std::uint8_t* 
   const RaySpan sorted = batch.rays();
   std::uint8_t* const sorted_hidden = batch.hidden(rays.count);
 
-  // Try some blocks from everywhere. If beams do not pay, lists do best with all rays in the caller's order.
+  // Try some evenly spread blocks. If beams do not pay, lists do best with all rays in the caller's order.
   const std::int64_t blocks = (rays.count + kBeamRays - 1) / kBeamRays;
   const std::int64_t step = std::max(kBlocksPerTrial, blocks / kSortedTrialBlocks);
   SortedBeams trial = occluded_by_sorted_beams(tree, sorted, {step, false}, sorted_hidden);
@@ -219,8 +219,8 @@ bool is_empty(const RaySpan& rays, std::int64_t i) {
   return rays.t_max != nullptr && rays.t_max[i] < (rays.t_min != nullptr ? rays.t_min[i] : 0);
 }
 
-// Rays that are no neighbours may still leave the same spheres, as the surfaces of many layers do: in this order beams
-// take most of them.
+// Rays that are not neighbours may still start on the same spheres, as with many layers of surfaces: in this order
+// beams take most of them.
 void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const RemainingRays& which,
                              std::vector<RayHit>& hits) {
   ReorderedBatch& batch = memory_of_this_thread().sorted;
@@ -251,7 +251,7 @@ void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vecto
   if (remaining.count() > 0) all_hits_by_left_sphere(tree, rays, remaining, hits);
 }
 
-// Adds the spheres that lie in piles under the spheres that were hit.
+// Adds the duplicates of the spheres that were hit.
 void add_piles(const WideTree& traced, std::vector<RayHit>& hits) {
   const WideTree& tree = traced.is_image ? *traced.image_of : traced;
   if (tree.piles.empty()) return;
@@ -265,7 +265,7 @@ void add_piles(const WideTree& traced, std::vector<RayHit>& hits) {
   }
 }
 
-// By ray, by counting; then the few hits of each ray by t and id.
+// Counting sort by ray; then the few hits of each ray are sorted by t and id.
 void sort_hits(std::int64_t rays, const std::vector<RayHit>& hits, std::vector<RayHit>& sorted) {
   std::vector<std::size_t> next(static_cast<std::size_t>(rays) + 1, 0);
   for (const RayHit& hit : hits) ++next[static_cast<std::size_t>(hit.ray) + 1];

@@ -1,6 +1,6 @@
-// The bounds behind the beams: how far binary32 may be wrong where 64 rays are tested at once.
+// Error bounds of beams: how far binary32 may be wrong when 64 rays are tested at once.
 //
-// As wide/trace/filter_bounds.h, whose words are used here, but for rays that are set up in binary32. u = 2^-24, F =
+// As wide/trace/filter_bounds.h, whose terms are used here, but for rays that are set up in binary32. u = 2^-24, F =
 // max |o_k| + 1 over the rays of a beam, L = sqrt(3) F. Only rays whose origins are within kFarOrigin come here, so
 // none is moved, and their local origins are exact (a scaling by a power of two; what falls below 2^-126 is off by
 // 2^-150).
@@ -24,9 +24,9 @@
 // target). r = 0 is never sure: dp <= e^2 < kSureShare e R.
 //
 // Frustum: its planes are i = A + B w, with w the coordinate along the major axis, where n_w >= kLeastMajor, so slopes
-// n_i / n_w are at most 5. A ray's place at a given w is wrong by 10 u F (slope 2 u, difference and product 2 u), u F
-// for o, and 6 u F for the sum; A and the value of a box corner or centre, a fused product and sum up to 13 F, by 13 u
-// F each; a hit lies up to 2^-25 + 52 2^-53 F = u F beyond its box. All below kFrustumUnits u F = 64 u F. The same
+// n_i / n_w are at most 5. A ray's position at a given w is wrong by 10 u F (slope 2 u, difference and product 2 u), u
+// F for o, and 6 u F for the sum; A and the value of a box corner or centre, a fused product and sum up to 13 F, by 13
+// u F each; a hit lies up to 2^-25 + 52 2^-53 F = u F beyond its box. All below kFrustumUnits u F = 64 u F. The same
 // holds for w = o_w + n_w s.
 //
 // Images (WideTree::image): the moved origin is rounded (u L), and the true centre is off by 0.87 u < 0.51 u L. b: 10 u

@@ -37,7 +37,7 @@ struct alignas(64) BeamRays {
   float s_best[kBeamRays];  ///< hits beyond this are surely not the answer
   std::uint32_t
       winner_number[kBeamRays];  ///< of the nearest sure hit among the Winners (beam_winners-inl.h), or kNoWinner
-  /// Id of the sphere that the ray leaves, or kNoSphere. Not written unless the span says which spheres rays leave.
+  /// Id of the sphere that the ray exits, or kNoSphere. Not written unless the span says on which spheres rays start.
   std::uint32_t left_id[kBeamRays];
   float e, pad;
   int count;   ///< rays in the block
@@ -48,7 +48,7 @@ struct alignas(64) BeamRays {
 
 namespace beam_rays {
 
-// The arrays of a block's rays: parts of the span's, or copies that are filled up to 64 rays.
+// The arrays of a block's rays: slices of the span's, or copies padded to 64 rays.
 struct Block {
   const float* origin[3];
   const float* direction[3];
@@ -94,7 +94,7 @@ HWY_INLINE bool plain_segments(const RaySpan& rays, std::int64_t first, int coun
   return true;
 }
 
-// The first ray tells along which axis the block goes.
+// The first ray determines the block's main axis.
 HWY_INLINE void choose_major_axis(const Block& block, BeamRays& out) {
   const float size[3] = {std::abs(block.direction[0][0]), std::abs(block.direction[1][0]),
                          std::abs(block.direction[2][0])};
@@ -102,7 +102,7 @@ HWY_INLINE void choose_major_axis(const Block& block, BeamRays& out) {
   out.sign = block.direction[out.major][0] < 0 ? -1.0F : 1.0F;
 }
 
-// Coordinates of origins where the tree's nodes are: rounded to binary32 only after an image was moved back.
+// Origins in the space of the tree's nodes: rounded to binary32 only after an image was moved back.
 HWY_INLINE Floats before_image(Floats world, double scale, double shift) {
   using Doubles = hn::CappedTag<double, 16>;
   using Half = hn::Rebind<float, Doubles>;
@@ -141,7 +141,7 @@ HWY_INLINE FloatMask set_up_origins(const Block& block, const WideTree& tree, Be
   return near;
 }
 
-// Copies directions. Are all of length 1 as they are?
+// Copies directions. Returns whether all have length 1 already.
 HWY_INLINE bool copy_directions(const Block& block, BeamRays& out) {
   const FloatTag d;
   auto unit = hn::Eq(hn::Zero(d), hn::Zero(d));
@@ -158,7 +158,7 @@ HWY_INLINE bool copy_directions(const Block& block, BeamRays& out) {
   return hn::AllTrue(d, unit);
 }
 
-// Brings the directions from `lane` on to length 1; `length` becomes what it was. Returns the lanes whose length is
+// Normalizes the directions from `lane` on; `length` gets their former lengths. Returns the lanes whose length is
 // neither extreme nor NaN.
 HWY_INLINE FloatMask normalize_directions(BeamRays& out, int lane, Floats& length) {
   const FloatTag d;
@@ -204,8 +204,8 @@ HWY_INLINE FloatMask set_up_ends(const double* t_max, double scale, Floats lengt
 
 }  // namespace beam_rays
 
-/// Makes rays `first` to first + count - 1 (1 to 64) of a span ready. False: not for a beam (not valid, far away, of
-/// extreme length, not all along one axis, with segments that start elsewhere than at t = 0, or going into a sphere).
+/// Prepares rays `first` to first + count - 1 (1 to 64) of a span. False: not suitable for a beam (not valid, far away,
+/// of extreme length, not all along one axis, with segments that do not start at t = 0, or going into a sphere).
 HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int64_t first, int count, BeamRays& out) {
   const FloatTag d;
   if (!beam_rays::plain_segments(rays, first, count)) return false;

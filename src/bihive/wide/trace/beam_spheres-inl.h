@@ -38,7 +38,7 @@ struct Candidate {
   float padded_squared;
 };
 
-/// How the rays from `lane` on lie to a sphere.
+/// The position of the rays from `lane` on relative to a sphere.
 template <bool kCommonOrigin>
 HWY_INLINE Meeting meet_rays(const BeamRays& rays, const Candidate& sphere, int lane) {
   const FloatTag d;
@@ -55,7 +55,7 @@ HWY_INLINE Meeting meet_rays(const BeamRays& rays, const Candidate& sphere, int 
 }
 
 /// The rays of a vector that come near enough to a sphere to hit it. With kSkipOwn a ray does not hit the sphere that
-/// it leaves.
+/// it exits.
 template <bool kSkipOwn>
 HWY_INLINE FloatMask near_enough(const BeamRays& rays, const Candidate& sphere, const Meeting& m, int lane) {
   const FloatTag d;
@@ -65,7 +65,7 @@ HWY_INLINE FloatMask near_enough(const BeamRays& rays, const Candidate& sphere, 
   return hn::AndNot(hn::RebindMask(d, own), near);
 }
 
-/// Where the near roots lie: from `lower` to `upper`.
+/// Bounds of the near roots: `lower` to `upper`.
 struct Roots {
   Floats lower, upper;
   FloatMask candidate;  ///< may be a hit before `best`

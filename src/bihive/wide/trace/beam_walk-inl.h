@@ -1,4 +1,5 @@
-// The walk of a beam: its frustum meets sixteen boxes at a time, then the spheres of the leaves that it enters.
+// Beam traversal: a frustum is tested against sixteen boxes at a time, then against the spheres of the leaves that it
+// enters.
 
 #if defined(BIHIVE_WIDE_TRACE_BEAM_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_BEAM_WALK_INL_H_
@@ -38,9 +39,9 @@ HWY_INLINE WaitingChild child_of(const WideNode& node, int slot, float w_near) {
 
 }  // namespace beam
 
-/// Walks the tree in the order for directions of `octant`, from near to far if it is the frustum's own. Calls
+/// Traverses the tree in the order for directions of `octant`, from near to far if it is the frustum's own. Calls
 /// leaf(first slot, spheres) for each leaf that the frustum meets before its w_end, which the callback may bring
-/// nearer. The walk ends where it returns true.
+/// nearer. The traversal ends when it returns true.
 template <class Leaf>
 HWY_INLINE void walk_beam(const WideTree& tree, const Frustum& frustum, int octant, const Leaf& leaf) {
   // Each level leaves at most fifteen children waiting.
@@ -56,7 +57,7 @@ HWY_INLINE void walk_beam(const WideTree& tree, const Frustum& frustum, int octa
       continue;
     }
 
-    // Let the children that rays may enter wait, the next on top.
+    // Push the children that rays may enter, the next on top.
     const WideNode& node = tree.nodes[top.number];
     const std::uint32_t bits = boxes_in(node, frustum, w_near);
     if (bits == 0) continue;

@@ -1,4 +1,4 @@
-// The spheres that are the nearest so far for some ray of a beam, and their hits in binary64, a block at a time.
+// The spheres that are currently the nearest for some ray of a beam, and their hits in binary64, a block at a time.
 
 #if defined(BIHIVE_WIDE_TRACE_BEAM_WINNERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_BEAM_WINNERS_INL_H_
@@ -29,12 +29,12 @@ inline void write_misses(const HitSpan& hits, std::int64_t first, int count) {
   std::fill_n(hits.sphere_id + first, count, kNothing);
 }
 
-/// The spheres that won rays of a block, in arrays of their own: lanes say which by `BeamRays::winner_number`.
+/// The spheres that won rays of a block, in separate arrays: `BeamRays::winner_number` refers to them.
 class Winners {
  public:
   void clear() { count_ = 0; }
 
-  /// One more, number next(), if it `won`. Call make_room() before.
+  /// Adds one, number next(), if it `won`. Call make_room() before.
   HWY_INLINE void add_if(bool won, const WideTree& tree, std::uint32_t slot) {
     const WideSpheres& spheres = tree.spheres;
     x_[count_] = spheres.x[slot];
@@ -78,7 +78,7 @@ class Winners {
       if (number != kNoWinner) number = renamed[number];
   }
 
-  /// The winners of all lanes. A lane without one gets anything, but the id kNoWinner.
+  /// The winners of all lanes. A lane without one is undefined except for the id kNoWinner.
   struct alignas(64) OfLanes {
     float x[kBeamRays], y[kBeamRays], z[kBeamRays], r[kBeamRays];
     std::uint32_t id[kBeamRays];

@@ -74,7 +74,7 @@ RemainingRays occluded_by_beams_on_target(const WideTree& tree, const RaySpan& r
   RemainingRays remaining;
   OcclusionBeam<false> beam(tree, rays, false, hidden);
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
-    // Where beams give most of their rays back, the lists do better with all of them in their order.
+    // If beams return most of their rays, the lists do better with all of them in their original order.
     if (first == kTrialBlocks * kBeamRays && remaining.count() > first / 3) {
       remaining.add(first, rays.count - first);
       break;
@@ -121,7 +121,7 @@ HWY_EXPORT(all_hits_by_beams_on_target);
 
 namespace wide {
 
-// Ray numbers are 32-bit in pairs. Where spheres coincide, ids do not tell which ones a ray leaves.
+// Ray numbers are 32-bit in pairs. If spheres coincide, ids do not tell which ones a ray exits.
 bool beams_take(const WideTree& tree, const RaySpan& rays) {
   return tree.node_count > 0 && (rays.leaves == nullptr || tree.repeated.empty()) &&
          rays.count <= std::numeric_limits<std::uint32_t>::max();

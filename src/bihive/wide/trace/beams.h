@@ -1,4 +1,4 @@
-// Beams: blocks of 64 neighbouring rays walk the wide tree together, on the active target.
+// Beams: blocks of 64 neighbouring rays traverse the wide tree together, on the active target.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ constexpr int kBeamRays = 64;
 /// Whether beams take these rays at all.
 bool beams_take(const WideTree& tree, const RaySpan& rays);
 
-/// Answer the rays but for those that they return, which are not for beams. Any rays may come that beams take; only
+/// Answer the rays except those that they return, which do not suit beams. Any rays that beams take are valid; only
 /// blocks of 64 (counted from the first ray) that are close in origin and direction are fast.
 RemainingRays closest_hits_by_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
 RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
 
 /// Appends every hit of the rays that it does not return, in no order. sorted: it returns only rays that binary32
-/// cannot hold, and answers others alone where they make no beam.
+/// cannot hold, and answers others singly where they make no beam.
 RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, std::vector<RayHit>& found);
 
 /// Blocks of a span: those whose number is a multiple of `step`, or all others.

@@ -1,4 +1,4 @@
-// One ray against boxes: where it enters them, and where it leaves them.
+// One ray against boxes: where it enters and exits them.
 
 #if defined(BIHIVE_WIDE_TRACE_BOX_TEST_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_BOX_TEST_INL_H_
@@ -17,8 +17,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The sides of boxes that a ray comes to first and last, axis by axis; kFloatLanes boxes from `lane` on. Memory must
-/// be aligned.
+/// The near and far sides of boxes for a ray, axis by axis; kFloatLanes boxes from `lane` on. Memory must be aligned.
 struct BoxLanes {
   Floats near_x, near_y, near_z, far_x, far_y, far_z;
   HWY_INLINE BoxLanes(const float* const near[3], const float* const far[3], int lane)
@@ -46,8 +45,8 @@ struct BoxRay {
         s_min(in_all(ray.s_min)),
         s_best(in_all(best)) {}
 
-  /// The distance at which the ray's segment enters the boxes, and that at which it leaves them: it meets a box where
-  /// the first is not above the second.
+  /// The distances at which the ray's segment enters and exits the boxes: it meets a box if the first is not above the
+  /// second.
   HWY_INLINE Floats entry(const BoxLanes& boxes) const {
     const auto s_x = hn::MulAdd(boxes.near_x, ix, near_x);
     const auto s_y = hn::MulAdd(boxes.near_y, iy, near_y);

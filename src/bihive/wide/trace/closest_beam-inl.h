@@ -1,5 +1,6 @@
-// The closest hits of a block of 64 neighbouring rays. The frustum of the block meets sixteen boxes or spheres at a
-// time. A sphere that lies in it meets all rays, or only the runs of sixteen rays in whose own frusta it lies.
+// The closest hits of a block of 64 neighbouring rays. The frustum of the block is tested against sixteen boxes or
+// spheres at a time. A sphere inside it is tested against all rays, or only against the runs of sixteen rays in whose
+// own frusta it lies.
 
 #if defined(BIHIVE_WIDE_TRACE_CLOSEST_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_CLOSEST_BEAM_INL_H_
@@ -65,7 +66,7 @@ class ClosestBeams {
   const WideTree& tree;
   const RaySpan& span;
   const HitSpan& hits;
-  BeamRays rays;  ///< of the block at work, made ready by set_up_beam()
+  BeamRays rays;  ///< of the current block, prepared by set_up_beam()
   Frustum frustum;
   Winners winners;
 
@@ -73,8 +74,8 @@ class ClosestBeams {
   UndecidedPairs<512> pairs_;
 };
 
-/// One block, whose hits are written. Where spheres are small to the beam, kByRuns lets each meet only those runs of
-/// kRunRays rays in whose own frustum it lies. kSkipOwn: rays may leave spheres.
+/// One block, whose hits are written. For spheres small compared to the beam, kByRuns tests each only against those
+/// runs of kRunRays rays in whose own frustum it lies. kSkipOwn: rays may start on spheres.
 template <bool kCommonOrigin, bool kSkipOwn, bool kByRuns>
 class ClosestBeam {
  public:
@@ -174,7 +175,7 @@ class ClosestBeam {
         met[v] = beam::meet_rays<kCommonOrigin>(rays_, sphere, run + v * kFloatLanes);
         largest = hn::Max(largest, met[v].dp);
       }
-      // No branch where a sphere lies in the run's own frustum: nearly always some ray comes near.
+      // No branch for a sphere in the run's own frustum: nearly always some ray comes near.
       if (kRays > kRunRays && hn::AllTrue(d, hn::Lt(largest, hn::Zero(d)))) continue;
       std::uint32_t undecided = 0;
       for (int v = 0; v < kRunVectors; ++v) {

@@ -37,7 +37,7 @@ struct alignas(64) Gathered {
   double radius[kExactPairs] = {};
   double t_min[kExactPairs] = {};
   double t_max[kExactPairs] = {};
-  double own[kExactPairs] = {};     // 1: the ray leaves this sphere
+  double own[kExactPairs] = {};     // 1: the ray exits this sphere
   double inside[kExactPairs] = {};  // 1: into it
 };
 
@@ -66,10 +66,10 @@ HWY_INLINE void gather(const WideTree& tree, const RaySpan& rays, const Pair& pa
 template <class D>
 struct ExactLanes {
   hn::Vec<D> origin[3], direction[3], centre[3], radius, t_min, t_max;
-  hn::Mask<D> own, inside;  // the ray leaves this sphere; into it
+  hn::Mask<D> own, inside;  // the ray exits this sphere; into it
 };
 
-/// Where lines meet spheres: both roots. They are right where the discriminant is not negative.
+/// Both roots of lines and spheres; valid where the discriminant is not negative.
 template <class D>
 struct RootLanes {
   hn::Vec<D> discriminant, t_near, t_far;
@@ -110,8 +110,8 @@ HWY_INLINE hn::Vec<D> sphere_hit_lanes(D d, const ExactLanes<D>& lanes) {
   const auto roots = sphere_roots_lanes<D>(lanes.origin, lanes.direction, lanes.centre, lanes.radius);
   const auto meets = hn::And(hn::Ge(roots.discriminant, hn::Zero(d)), hn::Gt(lanes.radius, hn::Zero(d)));
 
-  // The nearer root counts if it lies in the segment, else the farther. Of the sphere that the ray leaves, only the
-  // farther root counts (going into it) or none.
+  // The nearer root counts if it lies in the segment, else the farther. For the sphere on which the ray starts, only
+  // the farther root counts (going into it) or none.
   const auto in_segment = [&](auto t) HWY_ATTR { return hn::And(hn::Ge(t, lanes.t_min), hn::Le(t, lanes.t_max)); };
   const auto take_near = hn::And(hn::AndNot(lanes.own, meets), in_segment(roots.t_near));
   const auto take_far = hn::And(hn::AndNot(hn::AndNot(lanes.inside, lanes.own), meets), in_segment(roots.t_far));

@@ -1,4 +1,4 @@
-// The bounds behind the binary32 filter: what it may be wrong by, and when it is sure.
+// Error bounds of the binary32 filter, and when it is sure.
 //
 // The filter works on a *local* ray: an origin o of binary32 in stored units, at most kFarOrigin from 0 in every
 // coordinate (a farther one is moved along its ray to the point nearest to 0), a direction n of length 1 rounded to
@@ -17,10 +17,10 @@
 //   r^2 - p^2 >= dp - 4 e R, so the true half chord is shorter than sqrt(dp) by at most 4 e R / sqrt(dp) <= 20 e.
 // With r = 0 that never holds. A far root lies at s <= b + e + sqrt(dp).
 //
-// Boxes: a plane's distance (plane - o) / n is wrong by less than 7 u F in plane's place (2 u F for 1 / n, u F for the
-// product o / n, u F for the moved plane or offset, u F for the fused sum, u F for n, u F for a moved origin), and a
-// hit lies up to 2^-25 + 52 2^-53 F beyond its box (docs/precision.md, "Padding"). All planes are moved outward by
-// kBoxUnits u F = 10 u F; single rays move their offsets by as much instead.
+// Boxes: a plane's distance (plane - o) / n is wrong by less than 7 u F in the plane's position (2 u F for 1 / n, u F
+// for the product o / n, u F for the moved plane or offset, u F for the fused sum, u F for n, u F for a moved origin),
+// and a hit lies up to 2^-25 + 52 2^-53 F beyond its box (docs/precision.md, "Padding"). All planes are moved outward
+// by kBoxUnits u F = 10 u F; single rays move their offsets by as much instead.
 //
 // Images (WideTree::image): the ray is moved back in binary64, and then rounded like a moved origin. The true centre
 // was rounded to binary32 after it had been moved, where no coordinate is beyond 1: it is off by 2^-25 a coordinate,
@@ -35,7 +35,7 @@ namespace bihive {
 
 constexpr float kFilterUnits = 17;
 constexpr float kBoxUnits = 10;
-constexpr float kImageUnits = 1;  ///< of an image, in e
+constexpr float kImageUnits = 1;  ///< for an image, in e
 constexpr float kWidthInErrors = 24;
 constexpr float kUnit = 0x1p-24F;
 
@@ -50,7 +50,7 @@ constexpr float kFarthestEnd = 32;
 struct FilterBounds {
   float e;        ///< how far b and |p| may be wrong
   float width;    ///< W
-  float box_pad;  ///< by which planes are moved
+  float box_pad;  ///< distance by which planes are moved
 
   explicit FilterBounds(float farthest_origin, bool of_image = false) {
     const float reach = (farthest_origin + 1) * 1.0001F;
@@ -77,8 +77,8 @@ struct alignas(64) LocalRay {
   float direction[3];
   float inverse[3];          ///< 1 / direction, finite
   float offset[3];           ///< plane * inverse + offset: the distance to a plane, which was moved outward before
-  float s_min;               ///< lower bound of where the segment starts, by less than W / 2
-  std::uint32_t outward_id;  ///< of the sphere that it leaves going outward; kNoSphere if there is none
+  float s_min;               ///< lower bound of the segment's start, by less than W / 2
+  std::uint32_t outward_id;  ///< of the sphere that it exits going outward; kNoSphere if there is none
   std::uint32_t unused[2];
 };
 static_assert(sizeof(LocalRay) == 64);

@@ -1,4 +1,4 @@
-// A beam's frustum: what surely encloses the segments of its rays, and how boxes and spheres lie to it.
+// A beam's frustum, which encloses the segments of its rays, and its tests against boxes and spheres.
 
 #if defined(BIHIVE_WIDE_TRACE_FRUSTUM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_FRUSTUM_INL_H_
@@ -22,7 +22,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// In the coordinate w = sign * (coordinate along the major axis) all rays go up. The beam lies between w_begin and
+/// In the coordinate w = sign * (coordinate along the major axis) all rays ascend. The beam lies between w_begin and
 /// w_end and, along each minor axis i, between the planes i = limit + slope * w of `low` and `high`. Everything is
 /// outward by the rays' `pad`.
 struct Frustum {
@@ -74,7 +74,7 @@ HWY_INLINE void bound_along(const WideTree& tree, const BeamRays& rays, int begi
   out.w_end = std::min(largest(end), rays.sign > 0 ? hi : -lo) + rays.pad;
 }
 
-// The least and the largest place along an axis, of any ray, where the beam begins and where it ends.
+// The least and the largest position of any ray along an axis, at the beam's begin and end.
 struct Across {
   float low_begin, low_end, high_begin, high_end;
 };
@@ -125,8 +125,8 @@ HWY_INLINE Frustum::Side side_through(const BeamRays& rays, const Frustum& beam,
 
 }  // namespace frustum
 
-/// Of the kRays rays from lane `begin` on; those that are done (s_best below 0) do not count. False: no ray meets the
-/// bounds of the set.
+/// Makes the frustum of the kRays rays from lane `begin` on; those that are done (s_best below 0) do not count. False:
+/// no ray meets the bounds of the set.
 template <int kRays>
 HWY_INLINE bool make_frustum(const WideTree& tree, const BeamRays& rays, int begin, Frustum& out) {
   const int major = rays.major;
@@ -179,8 +179,8 @@ HWY_INLINE std::uint32_t boxes_in(const WideNode& node, const Frustum& beam, flo
   return bits;
 }
 
-/// Moves `bits` of a node's slots to their places in the order from near to far, place 0 the nearest, and says which
-/// slots they are: of place p, order >> 4 p & 15.
+/// Permutes `bits` of a node's slots into the order from near to far, rank 0 the nearest, and returns that order: the
+/// slot of rank p is order >> 4 p & 15.
 HWY_INLINE std::uint32_t near_to_far(const WideNode& node, int octant, std::uint32_t bits, std::uint64_t& order) {
   const bool backwards = octant >= 4;
   order = node.order[backwards ? 7 - octant : octant];

@@ -1,5 +1,5 @@
-// The first look at a leaf: which of its spheres may a list of rays hit? What passes waits in the queue of candidates.
-// One of three ways, by how many spheres a vector holds (what was measured: docs/performance_findings.md).
+// First test of a leaf: which of its spheres may a list of rays hit? Those that pass wait in the queue of candidates.
+// One of three variants, by the number of spheres that a vector holds (measurements: docs/performance_findings.md).
 
 #if defined(BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_LIST_LEAF_INL_H_
@@ -37,7 +37,7 @@ struct LeafAndRays {
 
   HWY_INLINE const LocalRay& ray(std::uint32_t i) const { return tile.rays[list[i]]; }
 
-  /// Of the spheres from `lane` on: (r + e)^2, which nothing reaches past the leaf; ids; slots.
+  /// For the spheres from `lane` on: (r + e)^2, which nothing reaches past the leaf; ids; slots.
   HWY_INLINE Floats padded_squares(std::uint32_t lane) const {
     const FloatTag d;
     const auto r = hn::Add(load_radii(tree.spheres, slot + lane), in_all(e));
@@ -73,13 +73,13 @@ struct LeafRay {
   }
 };
 
-/// Going outward a ray never meets the sphere that it leaves.
+/// Going outward, a ray never meets the sphere that it exits.
 HWY_INLINE FloatMask without_own(FloatMask passes, Words ids, std::uint32_t outward_id) {
   return hn::AndNot(hn::RebindMask(FloatTag(), hn::Eq(ids, hn::Set(WordTag(), outward_id))), passes);
 }
 
-/// Puts the lanes that pass at the end of the queue; returns its new length. Without a branch: whether some of many
-/// spheres pass cannot be foreseen.
+/// Appends the lanes that pass to the queue; returns its new length. Branchless: whether any sphere passes is
+/// unpredictable.
 HWY_INLINE int queue_candidates(CandidateQueue& queue, int queued, FloatMask passes, const Meeting& met,
                                 Floats r_squared, Words slots, std::uint32_t ray) {
   const FloatTag d;
@@ -90,7 +90,7 @@ HWY_INLINE int queue_candidates(CandidateQueue& queue, int queued, FloatMask pas
   const auto some_r_squared = compress(r_squared, passes);
   const auto some_slots = compress(slots, hn::RebindMask(words, passes));
   const auto rays = hn::Set(words, ray);
-  // More than four seldom pass, and short stores are quicker.
+  // More than four seldom pass, and short stores are faster.
   if (HWY_LIKELY(passing <= 4)) {
     store_four(b, queue.b + queued);
     store_four(dp, queue.dp + queued);
@@ -114,7 +114,7 @@ HWY_INLINE void for_each_ray(const LeafAndRays& leaf, const Finish& finish, cons
   CandidateQueue& queue = leaf.tile.queue;
   int queued = queue.count;
   for (std::uint32_t i = 0; i < leaf.count; ++i) {
-    __builtin_prefetch(&leaf.ray(std::min(i + kAhead, leaf.count - 1)));
+    __builtin_prefetch(&leaf.ray(std::min(i + kPrefetchDistance, leaf.count - 1)));
     queued = look(i, queued);
     if (HWY_UNLIKELY(queued >= kQueue)) {
       queue.count = queued;
@@ -143,7 +143,7 @@ HWY_INLINE void look_at_one_vector(const LeafAndRays& leaf, const Finish& finish
   });
 }
 
-/// A leaf, ready to be loaded vector by vector: loads cost less than to spread each ray over the lanes once more.
+/// A leaf, ready to be loaded vector by vector: loads are cheaper than broadcasting each ray once more.
 struct alignas(64) LeafInMemory {
   const float *x, *y, *z;
   alignas(64) float r_squared[kWidth];
@@ -158,7 +158,7 @@ struct alignas(64) LeafInMemory {
     }
   }
 
-  /// How a ray lies to the spheres from `lane` on, and which of them it may hit.
+  /// The position of a ray relative to the spheres from `lane` on, and which of them it may hit.
   template <bool kSkipOwn>
   HWY_INLINE Meeting meet_ray(const LeafRay& ray, std::uint32_t outward_id, std::uint32_t lane,
                               FloatMask& passes) const {
@@ -235,7 +235,7 @@ HWY_INLINE void look_at_pair(const LeafAndRays& leaf) {
   queue.count = queued;
 }
 
-/// The rays against the spheres; finish() empties the queue of the tile. With kSkipOwn some ray may leave a sphere.
+/// The rays against the spheres; finish() empties the queue of the tile. With kSkipOwn some ray may start on a sphere.
 template <bool kSkipOwn, class Finish>
 HWY_INLINE void look_at_leaf(const LeafAndRays& leaf, const Finish& finish) {
   if constexpr (kFloatLanes == kWidth) {

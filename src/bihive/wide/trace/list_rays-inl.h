@@ -1,4 +1,4 @@
-// A tile of rays, made ready for the walk as lists: local rays, their octants, and facts that hold for all of them.
+// A tile of rays, prepared for traversal as lists: local rays, their octants, and facts that hold for all of them.
 
 #if defined(BIHIVE_WIDE_TRACE_LIST_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_LIST_RAYS_INL_H_
@@ -59,12 +59,12 @@ class ListRays {
   }
 
   const FilterBounds& bounds() const { return bounds_; }
-  /// The rays of an octant are the first so many of tile.by_octant.
+  /// The rays of an octant are the first octant_count() of tile.by_octant.
   std::uint32_t octant_count(int octant) const { return octant_count_[octant]; }
-  /// The first so many of tile.far_rays are not for the filter.
+  /// The first far_count() of tile.far_rays are not for the filter.
   std::uint32_t far_count() const { return far_count_; }
 
-  bool leave_some() const { return leave_some_; }      ///< some ray may leave a sphere
+  bool leave_some() const { return leave_some_; }      ///< some ray may start on a sphere
   bool inward_some() const { return inward_some_; }    ///< inward_id of the tile is filled
   bool careful_some() const { return careful_some_; }  ///< careful of the tile is filled
   bool common_start() const { return common_start_; }  ///< all rays have the same s_min
@@ -86,7 +86,7 @@ class ListRays {
       farthest += std::max({std::abs(tree_.shift.x), std::abs(tree_.shift.y), std::abs(tree_.shift.z)});
     if (farthest <= kFarOrigin) return static_cast<float>(farthest) * 1.000001F;
 
-    // Some rays are far, or not valid: look at their local rays.
+    // Some rays are far, or not valid: examine their local rays.
     float moved = 0;
     LocalRays local;
     for (std::int64_t i = 0; i < rays_.count; i += 16) {
@@ -104,7 +104,7 @@ class ListRays {
       set_up_tail(rays_, first, static_cast<int>(left), tree_, local);
   }
 
-  // Hands sixteen rays to the lists of their octants; far ones to the list of those.
+  // Adds sixteen rays to the lists of their octants; far ones to the list of far rays.
   HWY_INLINE void list_by_octant(std::int64_t first, int count, const LocalRays& local) {
     const FloatTag d;
     std::uint32_t signs[3] = {};
@@ -126,7 +126,7 @@ class ListRays {
     return any != 0;
   }
 
-  // Notes the sphere that each ray leaves. A ray that leaves one of several equal spheres is marked `careful`: none of
+  // Records the sphere that each ray exits. A ray that exits one of several equal spheres is marked `careful`: none of
   // its hits counts as sure.
   HWY_INLINE void set_up_left(std::int64_t first, int count, std::uint32_t outward_id[16]) {
     std::fill_n(outward_id, 16, kNoSphere);

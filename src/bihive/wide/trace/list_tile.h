@@ -1,4 +1,4 @@
-// The memory in which a tile of rays walks the tree as lists. One a thread, kept between calls.
+// Working memory of a tile of rays. One per thread, kept between calls.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace bihive {
 
 constexpr int kQueue = 64;
 
-/// Candidates that passed the first look of the filter: lanes in arrays, finished many at a time.
+/// Candidates that passed the first test of the filter: lanes in arrays, finished many at a time.
 struct alignas(64) CandidateQueue {
   float b[kQueue + 32];
   float dp[kQueue + 32];
@@ -24,7 +24,7 @@ struct alignas(64) CandidateQueue {
   int count = 0;
 };
 
-/// A ray that waits for a leaf which few rays enter.
+/// A ray that waits for a leaf entered by few rays.
 struct LeafEntry {
   std::uint32_t ray;
   std::uint32_t slot;   // of the first sphere
@@ -39,7 +39,7 @@ struct ListTile {
   alignas(64) float s_min[kTileRays + 16];
   // The id of the sphere that the ray goes into, or kNoSphere. Written only if some ray goes into a sphere.
   alignas(64) std::uint32_t inward_id[kTileRays + 16];
-  // 1: the sphere that the ray leaves has equals. Written only if some spheres are equal.
+  // 1: the sphere that the ray exits has duplicates. Written only if some spheres are equal.
   alignas(64) std::uint32_t careful[kTileRays + 16];
   alignas(64) std::uint32_t by_octant[8][kTileRays + 16];
   std::uint32_t far_rays[kTileRays];  // for the scalar traversal
@@ -50,7 +50,7 @@ struct ListTile {
   AlignedBuffer arena;
   AlignedBuffer stream;
 
-  // On huge pages, because rays are looked up all over the tile.
+  // On huge pages, because rays are read in random order.
   static void* operator new(std::size_t bytes) { return allocate_aligned(bytes); }
   static void operator delete(void* tile) { std::free(tile); }
 };

@@ -1,6 +1,6 @@
-// A tile of rays walks the wide tree as lists: at each node every listed ray tests the sixteen boxes, and each child
-// gets the list of the rays that enter it. The children come from near to far, for any hit from the far end. A single
-// ray loses time to branches that no processor foresees; a list needs none.
+// A tile of rays traverses the wide tree as lists: at each node every listed ray tests the sixteen boxes, and each
+// child gets the list of the rays that enter it. Children are visited from near to far, for any hit from the far end. A
+// single ray loses time to unpredictable branches; a list needs none.
 
 #if defined(BIHIVE_WIDE_TRACE_LIST_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_LIST_WALK_INL_H_
@@ -34,7 +34,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The walk of one tile of at most kTileRays rays. With kAnyHit `hidden` is written, else `hits`.
+/// The traversal of one tile of at most kTileRays rays. With kAnyHit `hidden` is written, else `hits`.
 template <bool kAnyHit>
 class ListWalk {
  public:
@@ -53,9 +53,9 @@ class ListWalk {
   }
 
  private:
-  // ---- Walking ----
+  // ---- Traversal ----
 
-  // The closest hit is looked for from near to far, any hit from the far end:
+  // The closest hit is searched for from near to far, any hit from the far end:
   // docs/decisions/0013-any-hit-from-the-far-end.md.
   void walk_octant(int octant) {
     for (int axis = 0; axis < 3; ++axis) negative_[axis] = (octant >> axis & 1) != 0;
@@ -68,12 +68,12 @@ class ListWalk {
   // The working memory of a node with a list of `count` rays, one after the other in the arena.
   struct NodeMemory {
     std::uint16_t* masks;
-    // Distances of entry. Where a vector has sixteen lanes: of the children that are entered, packed, from offsets[i]
-    // on for ray i of the list. Else: of all sixteen children, ray after ray.
+    // Entry distances. With sixteen lanes in a vector: those of the entered children, packed, from offsets[i] on for
+    // ray i of the list. Otherwise: those of all sixteen children, ray after ray.
     float* s_near;
     std::uint32_t* offsets;
-    std::uint32_t* places;  // of the list
-    std::uint32_t* list;    // of a child
+    std::uint32_t* places;  // ray positions in the list
+    std::uint32_t* list;    // a child's list
     static std::size_t bytes(std::uint32_t count) {
       const std::size_t padded = (count + 47) / 16 * 16;
       return padded * (2 + 64 + 4 + 4 + 4) + 64;
@@ -97,7 +97,7 @@ class ListWalk {
     const NodeMemory memory(static_cast<char*>(tile_.arena.data()) + arena_used, count);
     const std::uint32_t any = test_boxes(node, list, count, memory);
 
-    // Child after child: list the rays that still want to enter it.
+    // For each child, list the rays that still enter it.
     const std::uint64_t order = node.order[order_];
     const int children = node.child_count;
     for (int k = 0; k < children; ++k) {
@@ -134,7 +134,7 @@ class ListWalk {
       }
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-      __builtin_prefetch(&tile_.rays[list[std::min(i + kAhead, count - 1)]]);
+      __builtin_prefetch(&tile_.rays[list[std::min(i + kPrefetchDistance, count - 1)]]);
       const LocalRay& local = tile_.rays[list[i]];
       const BoxRay ray(local, local.offset, local.offset, tile_.s_best[list[i]]);
       std::uint32_t bits = 0;
@@ -252,7 +252,7 @@ class ListWalk {
     finish_candidates();
   }
 
-  // The first look: up to sixteen spheres against a list of rays.
+  // First test: up to sixteen spheres against a list of rays.
   void look_at_spheres(std::uint32_t slot, std::uint32_t spheres, const std::uint32_t* list, std::uint32_t count) {
     const LeafAndRays leaf{tree_, tile_, ready_.bounds().e, slot, spheres, list, count};
     const auto finish = [this]() HWY_ATTR { finish_candidates(); };
@@ -262,7 +262,7 @@ class ListWalk {
       look_at_leaf<false>(leaf, finish);
   }
 
-  // The second look, many candidates at a time: is the root that counts surely in the segment and surely the nearest so
+  // Second test, many candidates at a time: is the root that counts surely in the segment and surely the nearest so
   // far?
   void finish_candidates() {
     CandidateQueue& queue = tile_.queue;
@@ -283,7 +283,7 @@ class ListWalk {
     queue.count = 0;
   }
 
-  // A vector of candidates; those that do not exist get anything.
+  // A vector of candidates; unused lanes are undefined.
   HWY_INLINE Judged judge_candidates(const CandidateQueue& queue, int first, FloatMask exists) const {
     const FloatTag d;
     const WordTag words;
@@ -294,7 +294,7 @@ class ListWalk {
     const auto s_best = hn::GatherIndex(d, tile_.s_best, index);
     const auto s_min = ready_.common_start() ? in_all(tile_.s_min[0]) : hn::GatherIndex(d, tile_.s_min, index);
     auto sure_min = hn::Add(s_min, in_all(bounds.width));
-    // Rays that go into the sphere that they leave, and those of which nothing is sure.
+    // Rays that go into the sphere on which they start, and those for which nothing is sure.
     auto inward = hn::MaskFromVec(hn::Zero(d));
     if (ready_.inward_some()) {
       const auto slot = hn::BitCast(ints, hn::Load(words, queue.slot + first));
@@ -356,7 +356,7 @@ class ListWalk {
     });
   }
 
-  // The distance along the local ray that belongs to a t of the ray, rounded up.
+  // The distance along the local ray for a t of the ray, rounded up.
   float upper_bound_of(std::uint32_t number, double t) const {
     SingleRay ray;
     double length = 0;

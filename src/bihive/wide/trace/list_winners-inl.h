@@ -35,7 +35,7 @@ using Ints32 = hn::Rebind<std::int32_t, Doubles>;
 using Words64 = hn::Rebind<std::uint64_t, Doubles>;
 using Ints64 = hn::Rebind<std::int64_t, Doubles>;
 
-// The t of rays i to i + kLanes - 1 and their winners, and the winners' ids. Lanes without a winner get anything.
+// The t of rays i to i + kLanes - 1 and their winners, and the winners' ids. Lanes without a winner are undefined.
 HWY_INLINE hn::Vec<Doubles> exact_t(const WideTree& tree, const RaySpan& rays, const ListTile& tile, bool inward_some,
                                     std::int64_t i, hn::Vec<Words32>& id) {
   const Doubles d;
@@ -68,7 +68,7 @@ HWY_INLINE hn::Vec<Doubles> exact_t(const WideTree& tree, const RaySpan& rays, c
   const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
   lanes.t_min = rays.t_min != nullptr ? hn::LoadU(d, rays.t_min + i) : hn::Zero(d);
   lanes.t_max = rays.t_max != nullptr ? hn::LoadU(d, rays.t_max + i) : infinity;
-  // A winner that the ray leaves is one that it goes into.
+  // A winner on which the ray starts is one that it goes into.
   lanes.own = hn::MaskFromVec(hn::Zero(d));
   if (inward_some)
     lanes.own =
@@ -79,7 +79,7 @@ HWY_INLINE hn::Vec<Doubles> exact_t(const WideTree& tree, const RaySpan& rays, c
 
 }  // namespace list_winners
 
-/// Writes the hits of all winners of a tile. With `decided_early` the hits of some undecided pairs are there already,
+/// Writes the hits of all winners of a tile. With `decided_early` the hits of some undecided pairs are already written,
 /// and the nearer one stays.
 HWY_INLINE void confirm_winners(const WideTree& tree, const RaySpan& rays, const ListTile& tile, bool inward_some,
                                 bool decided_early, const HitSpan& hits) {

@@ -49,7 +49,7 @@ ListTile& tile_of_this_thread() {
   return *tile;  // NOLINT(clang-analyzer-cplusplus.NewDelete): it takes the tile for freed at once
 }
 
-// Calls body(first, count) for one tile after the other.
+// Calls body(first, count) for each tile.
 template <class Body>
 void for_each_tile(std::int64_t rays, const Body& body) {
   for (std::int64_t first = 0; first < rays; first += kTileRays)

@@ -1,4 +1,4 @@
-// Ray lists: tiles of many rays walk the wide tree together, on the active target. Any rays may come.
+// Ray lists: tiles of many rays traverse the wide tree together, on the active target. For any rays.
 #pragma once
 
 #include <cstdint>

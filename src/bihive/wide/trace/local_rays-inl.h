@@ -24,7 +24,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Rays of the caller's, lane by lane, in binary64 and world units.
+/// The caller's rays, lane by lane, in binary64 and world units.
 template <class D>
 struct WorldLanes {
   hn::Vec<D> origin[3], direction[3];
@@ -59,7 +59,7 @@ HWY_INLINE void set_up_segment(D d, const WorldLanes<D>& world, LocalLanes<D>& l
   local.s_max = farthest;
   if (world.has_segment) {
     local.alive = hn::And(local.alive, hn::Le(world.t_min, world.t_max));
-    // Infinite ends become large ones, so that no infinity meets another.
+    // Infinite ends become large finite ones, so that no operation sees two infinities.
     const auto large = hn::Set(d, 1e30);
     const auto cut = [&](auto s) HWY_ATTR { return hn::Min(hn::Max(s, hn::Neg(large)), large); };
     local.s_min = hn::Sub(cut(hn::Mul(world.t_min, local.length)), local.shift);
@@ -71,7 +71,7 @@ HWY_INLINE void set_up_segment(D d, const WorldLanes<D>& world, LocalLanes<D>& l
   local.s_min = hn::Min(hn::Max(local.s_min, hn::Neg(farthest)), farthest);
 }
 
-// Gives rays that are out of the filter's reach harmless numbers.
+// Gives rays beyond the filter's range harmless numbers.
 template <class D>
 HWY_INLINE void calm_dead_rays(D d, LocalLanes<D>& local) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -127,7 +127,7 @@ HWY_INLINE LocalLanes<D> local_lanes(D d, const WorldLanes<D>& world, const Wide
     local.shift = hn::IfThenElseZero(moved, hn::Neg(along));
     for (int axis = 0; axis < 3; ++axis)
       local.origin[axis] = hn::MulAdd(local.shift, local.direction[axis], local.origin[axis]);
-    // A line that stays this far away misses everything.
+    // A line at this distance misses everything.
     local.alive = hn::And(local.alive, hn::Le(local_rays::largest_of<D>(local.origin), far_origin));
   }
 
@@ -141,7 +141,7 @@ HWY_INLINE LocalLanes<D> local_lanes(D d, const WorldLanes<D>& world, const Wide
 /// 1e-18 of the axis's plane are moved off it: over the 16 units to anything in the set that is less than any padding.
 template <class D>
 HWY_INLINE void box_factors(D d, hn::Vec<D> origin, hn::Vec<D> direction, hn::Vec<D>& inverse, hn::Vec<D>& offset) {
-  // -0 becomes +0: a sign is what comparison with 0 says.
+  // -0 becomes +0: the sign is that of a comparison with 0.
   const auto n = hn::Add(direction, hn::Zero(d));
   const auto clamped = hn::CopySign(hn::Max(hn::Abs(n), hn::Set(d, 1e-18F)), n);
   inverse = hn::Div(hn::Set(d, 1.0F), clamped);
@@ -225,7 +225,7 @@ HWY_INLINE void set_up_tail(const RaySpan& rays, std::int64_t first, int count, 
 
 namespace local_rays {
 
-// Four rays from number `i` on, from arrays of their sixteen components to structures.
+// Transposes four rays from number `i` on, from arrays of sixteen components to structures.
 HWY_INLINE void write_four(const float* const components[16], int i, LocalRay* to) {
 #if HWY_TARGET == HWY_SCALAR
   for (int ray = 0; ray < 4; ++ray) {
@@ -274,7 +274,7 @@ HWY_INLINE void write_local_rays(const LocalRays& rays, const std::uint32_t outw
       hn::Store(some_inverse, d, inverse[axis] + lane);
       hn::Store(some_offset, d, offset[axis] + lane);
     }
-  // Ids go as the bits that they are.
+  // Ids are moved as bits.
   alignas(64) float outward_id[16];
   std::memcpy(outward_id, outward, sizeof(outward_id));
   const float* const unused = rays.s_min;

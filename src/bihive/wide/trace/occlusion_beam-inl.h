@@ -1,6 +1,6 @@
-// Any hit of a block of 64 neighbouring rays, or all hits. It is made for shadow rays towards a light: the walk starts
-// at the far ends of the rays, rays that are surely hidden leave the beam, and the spheres that hid the last blocks are
-// tried first. For all hits, no ray leaves the beam, and binary64 decides every sphere that a ray may meet.
+// Any hit of a block of 64 neighbouring rays, or all hits. It is made for shadow rays towards a light: the traversal
+// starts at the far ends of the rays, rays that are surely occluded drop out of the beam, and the occluders of the last
+// blocks are tried first. For all hits, no ray drops out, and binary64 decides every sphere that a ray may meet.
 
 #if defined(BIHIVE_WIDE_TRACE_OCCLUSION_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_OCCLUSION_BEAM_INL_H_
@@ -33,8 +33,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The spheres that hid rays last, the latest first. One vector of them is tried: narrow targets try fewer than are
-/// kept.
+/// The latest occluders first. One vector of them is tried: narrow targets try fewer than are kept.
 class Occluders {
  public:
   static constexpr int kMost = 8;
@@ -57,12 +56,12 @@ class Occluders {
   int count_ = 0;
 };
 
-/// Answers the blocks of one call, one after the other.
+/// Answers the blocks of one call.
 template <bool kAllHits>
 class OcclusionBeam {
  public:
-  /// sorted: neighbours may start on any surfaces; for all hits, every ray is answered, if need be alone. `hidden`: for
-  /// any hit. `found`: for all hits, in no order.
+  /// sorted: neighbours may start on any surfaces; for all hits, every ray is answered, singly if necessary. `hidden`:
+  /// for any hit. `found`: for all hits, in no order.
   OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, std::uint8_t* hidden,
                 std::vector<RayHit>* found = nullptr)
       : tree_(tree),
@@ -75,11 +74,11 @@ class OcclusionBeam {
     run_width_limit_ = sorted ? width_limit_ : kWidestRunInLeaves * width_limit_;
   }
 
-  /// The rays of the next block go here, by set_up_beam(), before block().
+  /// The rays of the next block: to be filled by set_up_beam() before block().
   BeamRays rays;
 
-  /// Answers the block, but for pairs that wait for decide(), and for runs of sixteen rays that are too wide for a
-  /// beam: those are added to `remaining`.
+  /// Answers the block, except pairs that wait for decide(), and runs of sixteen rays that are too wide for a beam:
+  /// those are added to `remaining`.
   HWY_INLINE void block(std::int64_t first_ray, RemainingRays& remaining) {
     first_ray_ = first_ray;
     if (!kAllHits) std::fill_n(hidden_ + first_ray, rays.count, std::uint8_t{0});
@@ -96,7 +95,7 @@ class OcclusionBeam {
     });
   }
 
-  /// Spheres that met beams so far, each times the rays of the beam.
+  /// Spheres tested against beams, each times the rays of the beam.
   std::int64_t met() const { return met_; }
 
  private:
@@ -105,7 +104,7 @@ class OcclusionBeam {
     Frustum frustum;
     if (!make_frustum<kBeamRays>(tree_, rays, 0, frustum)) return;
 
-    // Try the spheres that hid the last rays.
+    // Try the last occluders.
     if (!kAllHits && occluders_.count() > 0 && try_occluders(frustum)) {
       if (done<kBeamRays>(0)) {
         note_hidden(done_lanes());
@@ -141,7 +140,7 @@ class OcclusionBeam {
     note_hidden(done_lanes());
   }
 
-  // Traces each group of rays that leave the same sphere by itself, with the lanes of all others closed: such rays
+  // Traces each group of rays that start on the same sphere by itself, with the lanes of all others closed: such rays
   // start close together.
   HWY_INLINE void trace_groups(RemainingRays& remaining) {
     const FloatTag d;
@@ -201,11 +200,11 @@ class OcclusionBeam {
   const RaySpan& span_;
   std::uint8_t* hidden_;
   std::vector<RayHit>* found_;
-  bool leave_spheres_;  ///< some rays may
+  bool leave_spheres_;  ///< some rays may start on a sphere
   bool sorted_;
   std::int64_t first_ray_ = 0;
   std::int64_t met_ = 0;
-  std::uint64_t open_vectors_ = 0;  ///< a bit for each vector with rays that are not hidden yet
+  std::uint64_t open_vectors_ = 0;  ///< a bit for each vector with rays that are not yet occluded
   float width_limit_, run_width_limit_;
   UndecidedPairs<512> pairs_;
   Occluders occluders_;
@@ -245,7 +244,7 @@ class OcclusionBeam {
     return open_vectors<kRays>(begin) == 0;
   }
 
-  // Has the sphere hidden any more rays?
+  // Does the sphere occlude any more rays?
   template <int kRays>
   HWY_INLINE bool meet_sphere(int begin, std::uint32_t slot) {
     const FloatTag d;
@@ -261,7 +260,7 @@ class OcclusionBeam {
     bool any = false;
     for (std::uint64_t vectors = open_vectors<kRays>(begin); vectors != 0; vectors &= vectors - 1) {
       const int lane = __builtin_ctzll(vectors) * kFloatLanes;
-      // Which rays are not hidden yet, and come near to the sphere, but do not leave it?
+      // Which rays are not yet occluded, and come near the sphere, but do not start on it?
       const auto best = hn::Load(d, rays.s_best + lane);
       const Meeting met = beam::meet_rays<false>(rays, sphere, lane);
       auto near = leave_spheres_ ? beam::near_enough<true>(rays, sphere, met, lane)
@@ -292,7 +291,7 @@ class OcclusionBeam {
     }
   }
 
-  // Have the last occluders hidden any ray?
+  // Do the last occluders occlude any ray?
   HWY_INLINE bool try_occluders(const Frustum& frustum) {
     const FloatTag d;
     alignas(64) float places[4][kFloatLanes] = {};
@@ -312,7 +311,7 @@ class OcclusionBeam {
     return any;
   }
 
-  // True: all rays are hidden.
+  // True: all rays are occluded.
   template <int kRays>
   HWY_INLINE bool meet_leaf(int begin, const Frustum& frustum, std::int64_t first_slot, std::int64_t count) {
     bool any = false;
@@ -327,7 +326,7 @@ class OcclusionBeam {
     return any && done<kRays>(begin);
   }
 
-  // The walk starts at the rays' far ends: docs/decisions/0013-any-hit-from-the-far-end.md says why.
+  // The traversal starts at the rays' far ends; docs/decisions/0013-any-hit-from-the-far-end.md explains why.
   template <int kRays>
   HWY_INLINE void trace(int begin, const Frustum& frustum) {
     walk_beam(tree_, frustum, 7 - frustum.octant, [&](std::int64_t slot, std::int64_t count) HWY_ATTR {

@@ -1,4 +1,4 @@
-// The walk of one point through a wide tree: boxes and spheres in binary64, a vector at a time, near children first.
+// Point query traversal: boxes and spheres in binary64, a vector at a time, near children first.
 
 #if defined(BIHIVE_WIDE_TRACE_POINT_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_POINT_WALK_INL_H_
@@ -24,7 +24,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The point that walks, and what it knows of the tree.
+/// The query point, and facts about the tree.
 class PointWalk {
  public:
   PointWalk(const WideTree& tree, const wide::PointQuestion& question)
@@ -33,18 +33,18 @@ class PointWalk {
     if (tree.is_image) in_tree_ = question.point - tree.shift;
     const double farthest = std::max({std::abs(in_tree_.x), std::abs(in_tree_.y), std::abs(in_tree_.z)}) + 2.0;
     pad_ = (tree.is_image ? 0x1p-23 : 0x1p-24) + 0x1p-46 * farthest;
-    // Every radius is known to be at least this one.
+    // A lower bound of all radii.
     const WideSpheres& spheres = tree.spheres;
     if (spheres.has_palette && spheres.palette_size < 32)
       least_radius_ = double(*std::min_element(spheres.palette.data(), spheres.palette.data() + spheres.palette_size));
   }
 
   /// Calls answer.take(distance, id) for spheres, among them every one at a distance of at most answer.limit(), which
-  /// may become less meanwhile.
+  /// may shrink meanwhile.
   template <class Answer>
   HWY_INLINE void run(Answer& answer) const {
     if (tree_.node_count == 0) return;
-    // A node or, with a count, the spheres of a leaf. A level leaves at most 16 waiting.
+    // A node, or with a count the spheres of a leaf. Each level leaves at most 16 waiting.
     struct Waiting {
       double key;
       std::int64_t first, count;
@@ -61,7 +61,7 @@ class PointWalk {
         largest_key = key_of(answer.limit());
         continue;
       }
-      // Sort the children in between those that wait, so that the nearest comes next.
+      // Insert the children into the waiting ones, so that the nearest comes next.
       const WideNode& node = tree_.nodes[next.first];
       alignas(64) double keys[kWidth];
       find_keys(node, keys);
@@ -87,7 +87,7 @@ class PointWalk {
   double pad_;
   double least_radius_ = 0;
 
-  // A distance squared orders as the distance does, and needs no root. Below 0 it stays what it is.
+  // Squared distances have the same order as distances, and need no root. Negative ones stay unchanged.
   static double key_of_distance(double distance) { return distance > 0 ? distance * distance : distance; }
 
   // The largest key of a box whose spheres may be within the limit.
@@ -160,7 +160,7 @@ class PointWalk {
     }
   }
 
-  // The sphere, and those that lie in a pile under it.
+  // The sphere and its duplicates.
   template <class Answer>
   HWY_INLINE void take(double distance, std::int64_t id, Answer& answer) const {
     const std::uint8_t* const mask = question_.mask;

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 
-// The best so far, as a heap with the worst of them in front.
+// The current best, as a heap with the worst of them in front.
 struct NearestAnswers {
   double within;
   std::int64_t most;

@@ -32,7 +32,7 @@ struct PointQuestion {
 /// The nearest `most` of them, in order, to `nearest`, which has room for as many. Returns how many there are.
 std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, std::int64_t most, NearSphere* nearest);
 
-/// All of them, in any order, behind what `found` holds.
+/// Appends all of them to `found`, in any order.
 void find_within(const WideTree& tree, const PointQuestion& question, std::vector<NearSphere>& found);
 
 }  // namespace bihive::wide

@@ -1,4 +1,4 @@
-// The walk of one ray: sixteen boxes or sixteen spheres at a time, a step each.
+// Single-ray traversal: sixteen boxes or sixteen spheres per step.
 
 #if defined(BIHIVE_WIDE_TRACE_RAY_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_RAY_WALK_INL_H_
@@ -26,15 +26,15 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A local ray on its way, and what it has found.
+/// The state of a ray: its local form, and what it has found.
 struct SingleRay {
   LocalRay local;
   float near_offset[3];   ///< local.offset for planes where it enters boxes, as they are: a lower bound of the distance
-  float far_offset[3];    ///< and for those where it leaves them
-  float s_best;           ///< upper bound of the best hit so far; the segment's end at first
+  float far_offset[3];    ///< and for those where it exits them
+  float s_best;           ///< upper bound of the current best hit; the segment's end at first
   float sure_min;         ///< roots from here on lie surely in the segment
   float e, width;         ///< FilterBounds
-  std::uint32_t left_id;  ///< of the sphere that it leaves
+  std::uint32_t left_id;  ///< of the sphere that it exits
   bool inward;            ///< into it
   std::uint32_t winner;   ///< slot of the nearest sure hit, or kNoSlot
 
@@ -60,7 +60,7 @@ class WaitingChildren {
   void clear() { count_ = 0; }
   std::uint32_t pop() { return child_[--count_]; }
 
-  /// Lets the children wait that the ray may enter before s_best; the next is the nearest, or the farthest.
+  /// Pushes the children that the ray may enter before s_best; the top is the nearest, or the farthest.
   template <bool kFarthestFirst>
   HWY_INLINE void push_entered(const WideNode& node, std::uint32_t number, const SingleRay& ray, int octant) {
     const FloatTag d;
@@ -155,7 +155,7 @@ class WaitingChildren {
 };
 
 /// Tests the spheres of a leaf. A sure hit becomes the winner; undecided(slot) gets each sphere that only binary64 can
-/// decide, and returns true to end the walk. Returns true if the walk is at its end.
+/// decide, and returns true to end the traversal. Returns true if the traversal has ended.
 template <bool kAnyHit, class Undecided>
 HWY_INLINE bool test_leaf(const WideTree& tree, std::int64_t slot, std::int64_t spheres, SingleRay& ray,
                           const Undecided& undecided) {
@@ -205,13 +205,13 @@ HWY_INLINE bool test_leaf(const WideTree& tree, std::int64_t slot, std::int64_t 
   return false;
 }
 
-/// A ray on its way: memory has been asked for what it meets next. To any hit it walks from the far end:
+/// A traversal in progress; the next node or leaf is prefetched. For any hit it starts at the far end:
 /// docs/decisions/0013-any-hit-from-the-far-end.md.
 class RayWalk {
  public:
   SingleRay ray;
 
-  /// From a node on, once `ray` is ready.
+  /// Starts at a node, once `ray` is ready.
   HWY_INLINE void begin(std::int64_t node) {
     octant_ = octant_of(ray.local);
     waiting_.clear();
@@ -219,7 +219,7 @@ class RayWalk {
     next_spheres_ = 0;
   }
 
-  /// One node or leaf; undecided() as of test_leaf(). False: the walk is at its end.
+  /// Visits one node or leaf; undecided() as for test_leaf(). False: the traversal has ended.
   template <bool kAnyHit, class Undecided>
   HWY_INLINE bool step(const WideTree& tree, const Undecided& undecided) {
     if (next_spheres_ == 0) {
@@ -233,7 +233,7 @@ class RayWalk {
   }
 
  private:
-  // Where the ray goes from here. False: nowhere.
+  // Chooses the next node or leaf. False: none.
   HWY_INLINE bool fetch_next(const WideTree& tree) {
     if (waiting_.empty()) return false;
     const std::uint32_t child = waiting_.pop();

@@ -1,5 +1,5 @@
-// Rays that a walker leaves to another one, because it is not made for them. A walker returns them; the schedule
-// decides who answers them (wide/schedule/scheduler.cpp).
+// Rays that a traversal returns because it is not made for them. The schedule decides which other one answers them
+// (wide/schedule/scheduler.cpp).
 #pragma once
 
 #include <cstdint>

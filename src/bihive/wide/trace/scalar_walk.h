@@ -1,5 +1,5 @@
-// The walk in binary64, one ray and one box at a time. It is for rays that binary32 cannot hold, such as those that
-// start more than 2^20 times the scene's extent away.
+// Scalar traversal in binary64, one ray and one box at a time. It is for rays that binary32 cannot hold, such as those
+// that start more than 2^20 times the scene's extent away.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace bihive {
 
 /// Takes the ray to spheres as walk() in bih/traversal.h does. `ray` is valid and in the tree's stored units. `left`,
-/// and not `ray`, says which sphere it leaves.
+/// and not `ray`, says which sphere it exits.
 template <class Answer>
 void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, Answer& answer) {
   if (tree.node_count == 0) return;

@@ -1,5 +1,5 @@
-// The sphere test in binary32, a vector at a time: it says for certain that a ray misses a sphere, or how the two lie
-// to each other. trace/filter_bounds.h and trace/beam_bounds.h derive how far it may be wrong.
+// The sphere test in binary32, a vector at a time: it proves that a ray misses a sphere, or bounds where it hits.
+// trace/filter_bounds.h and trace/beam_bounds.h derive how far it may be wrong.
 
 #if defined(BIHIVE_WIDE_TRACE_SPHERE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_SPHERE_FILTER_INL_H_
@@ -17,7 +17,7 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// How rays lie to spheres, lane by lane.
+/// The position of rays relative to spheres, lane by lane.
 struct Meeting {
   Floats b;   ///< distance along the ray to the point nearest to the centre
   Floats dp;  ///< (r + e)^2 - p^2 with p the distance between line and centre; below 0: a certain miss
@@ -32,15 +32,15 @@ HWY_INLINE Meeting meet(Floats cx, Floats cy, Floats cz, Floats nx, Floats ny, F
   return {b, hn::NegMulAdd(px, px, hn::NegMulAdd(py, py, hn::NegMulAdd(pz, pz, r_squared)))};
 }
 
-/// The second look at spheres that the first did not exclude: bounds of the root that counts.
+/// Second test of the spheres that the first did not exclude: bounds of the root that counts.
 struct Judged {
   Floats start;    ///< the root lies here or beyond; if `sure`, by less than W
   FloatMask keep;  ///< may be a hit before s_best
   FloatMask sure;  ///< surely a hit in the segment
 };
 
-/// By the bounds of trace/filter_bounds.h. `own`: the ray leaves the sphere; `inward`: into it. met.dp >= 0 in all
-/// lanes that matter.
+/// By the bounds of trace/filter_bounds.h. `own`: the ray exits the sphere; `inward`: into it. met.dp >= 0 in all lanes
+/// that matter.
 HWY_INLINE Judged judge(const Meeting& met, Floats r_squared, Floats s_best, Floats s_min, Floats sure_min,
                         FloatMask own, FloatMask inward, float e, float width) {
   const FloatTag d;
@@ -50,11 +50,11 @@ HWY_INLINE Judged judge(const Meeting& met, Floats r_squared, Floats s_best, Flo
   const auto clear =
       hn::Ge(met.dp, hn::MulAdd(in_all(0.04F), r_squared, hn::Mul(in_all(4 * e), hn::Sqrt(hn::Abs(r_squared)))));
 
-  // Where the near root surely lies before the segment, or is where the ray starts, the far root counts.
+  // If the near root surely lies before the segment, or at the ray's start, the far root counts.
   const auto far_root = hn::And(clear, hn::Or(inward, hn::Lt(hn::Add(lower, hn::Set(d, width)), s_min)));
   Judged judged;
   judged.start = hn::IfThenElse(far_root, hn::Sub(upper, hn::Set(d, width)), lower);
-  // Going outward a ray never meets the sphere that it leaves.
+  // Going outward, a ray never meets the sphere that it exits.
   judged.keep = hn::AndNot(hn::AndNot(inward, own), hn::And(hn::Le(judged.start, s_best), hn::Ge(upper, s_min)));
   judged.sure = hn::And(hn::And(clear, hn::Ge(judged.start, sure_min)), hn::Or(far_root, hn::Not(inward)));
   return judged;

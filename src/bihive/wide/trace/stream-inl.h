@@ -1,4 +1,4 @@
-// Several rays walk the wide tree in turn, each by itself: while one waits for memory, the others go on. This is for
+// Several rays traverse the wide tree in turn, each by itself: while one waits for memory, the others continue. For
 // rays that have too little in common for a list.
 
 #if defined(BIHIVE_WIDE_TRACE_STREAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -29,7 +29,7 @@ struct StreamRay {
   std::uint32_t number;  ///< of the ray in its stream
 };
 
-/// kStreamRays rays, in memory that is kept.
+/// kStreamRays rays, in reused memory.
 HWY_INLINE StreamRay* stream_rays(AlignedBuffer& memory) {
   if (HWY_UNLIKELY(memory.capacity() < kStreamRays * sizeof(StreamRay))) {
     memory.reserve(kStreamRays * sizeof(StreamRay));
@@ -38,7 +38,7 @@ HWY_INLINE StreamRay* stream_rays(AlignedBuffer& memory) {
   return static_cast<StreamRay*>(memory.data());
 }
 
-/// Walks `count` rays from a node on. start(i, ray) makes ray i ready, finish(i, ray) takes what it has found, and
+/// Traverses `count` rays from a node on. start(i, ray) prepares ray i, finish(i, ray) takes its result, and
 /// undecided(i, slot) gets what only binary64 can decide.
 template <bool kAnyHit, class Start, class Finish, class Undecided>
 HWY_INLINE void walk_stream(const WideTree& tree, std::int64_t node, std::uint32_t count, StreamRay* rays,

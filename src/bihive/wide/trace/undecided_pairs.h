@@ -11,7 +11,7 @@ struct Pair {
   std::uint32_t slot;
 };
 
-/// Room for `kRoom` pairs. The caller asks has_room() before it adds one.
+/// Room for `kRoom` pairs. The caller checks has_room() before it adds one.
 template <int kRoom>
 class UndecidedPairs {
  public:

@@ -22,7 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 class WaitingSpheres {
  public:
   bool empty() const { return count_ == 0; }
-  /// A vector is full, or there are so many that a beam should meet them before it goes on: a hit ends it sooner.
+  /// Whether a vector is full, or there are enough that a beam should meet them before it continues: a hit ends it
+  /// sooner.
   bool enough() const { return count_ >= std::min(kFloatLanes, 8); }
 
   /// Adds the spheres of `mask` among those from `slot` on. Not while there are enough().
@@ -52,7 +53,7 @@ class WaitingSpheres {
 
  private:
   int count_ = 0;
-  alignas(64) float centre_[3][2 * kFloatLanes];  // NOLINT: lanes behind count_ are anything
+  alignas(64) float centre_[3][2 * kFloatLanes];  // NOLINT: lanes after count_ are undefined
   alignas(64) float padded_[2 * kFloatLanes];
   alignas(64) std::uint32_t slot_[2 * kFloatLanes];
 };

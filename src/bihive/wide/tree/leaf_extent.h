@@ -1,4 +1,4 @@
-// How large the leaves of a wide tree are.
+// The size of a wide tree's leaves.
 #pragma once
 
 #include "bihive/wide/wide_tree.h"

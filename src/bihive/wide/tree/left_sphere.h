@@ -1,4 +1,4 @@
-// Which spheres a ray leaves: the one that it names, and all that coincide with it.
+// The spheres that a ray exits: the one that it names, and all that coincide with it.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace bihive {
 
-/// Spheres of equal centre and radius share one surface; a ray that starts on it leaves all of them
-/// (geometry/scaled_ray.h). Where a tree has no repeated spheres, comparing ids is enough.
+/// Spheres of equal centre and radius share one surface; a ray that starts on it exits all of them
+/// (geometry/scaled_ray.h). If a tree has no repeated spheres, comparing ids is enough.
 class LeftSphere {
  public:
   LeftSphere(const WideTree& tree, std::int64_t leaves) : id_(leaves) {

@@ -117,7 +117,7 @@ WideStatistics wide_statistics(const WideTree& tree) {
   statistics.node_fill = static_cast<double>(children.sum()) / static_cast<double>(kWidth * children.count());
   statistics.leaf_fill = static_cast<double>(tree.placed) / static_cast<double>(leaf_lanes);
 
-  // A box without a surface is a line or a point. A ray meets all that lies on it, or nothing.
+  // A box without a surface is a line or a point. A ray meets everything on it, or nothing.
   if (surfaces.nodes > 0) statistics.overlap = surfaces.overlaps / surfaces.nodes;
   const double all = half_surface(tree.aabb);
   if (all > 0) {

@@ -17,7 +17,7 @@ Error wrong(const std::string& what) {
   return {"wide tree: " + what, "", 0, 0, ""};
 }
 
-// A node to visit, with its box, range and level as the node above says them.
+// A node to visit, with its box, range and level as its parent states them.
 struct Visit {
   std::int64_t node;
   Aabb box;
@@ -48,7 +48,7 @@ const char* wrong_in(const WideNode& node, const Visit& visit) {
   if (node.child_count < 1 || node.child_count > kWidth) return "has no children, or too many";
   if (node.first_sphere != visit.first || node.begin[0] != 0 ||
       node.begin[kWidth] != static_cast<std::uint64_t>(visit.count))
-    return "has not the range that the node above gives it";
+    return "does not have the range that the node above gives it";
   for (int slot = 0; slot < kWidth; ++slot) {
     if (node.begin[slot + 1] < node.begin[slot]) return "has ranges out of order";
     const bool used = slot < node.child_count;
@@ -78,26 +78,26 @@ Status check_leaf(const WideTree& tree, const SphereSet& set, const Aabb& box, s
   return Done{};
 }
 
-// Marks the spheres that are in piles alone: each equals the one of its pile that a leaf holds, and comes after it.
+// Marks the duplicates that no leaf holds: each equals the sphere of its group that a leaf holds, and comes after it.
 Status check_piles(const WideTree& tree, const SphereSet& set, std::vector<bool>& met) {
   std::size_t first = 0;
   std::int64_t before = -1;
   for (const Pile& pile : tree.piles) {
     if (std::int64_t{pile.id} <= before || pile.id >= set.size() || !met[pile.id] || pile.first_other != first ||
         pile.end_of_others <= first || pile.end_of_others > tree.others_in_piles.size())
-      return wrong("the pile of sphere " + std::to_string(pile.id) + " is not one");
+      return wrong("the duplicates of sphere " + std::to_string(pile.id) + " are not a group");
     std::int64_t last = before = pile.id;
     for (; first < pile.end_of_others; ++first) {
       const std::int64_t other = tree.others_in_piles[first];
       if (other <= last || other >= set.size() || met[static_cast<std::size_t>(other)] ||
           set.stored_centre(other) != set.stored_centre(pile.id) ||
           set.stored_radius(other) != set.stored_radius(pile.id))
-        return wrong("the pile of sphere " + std::to_string(pile.id) + " holds another sphere");
+        return wrong("the duplicates of sphere " + std::to_string(pile.id) + " include another sphere");
       met[static_cast<std::size_t>(other)] = true;
       last = other;
     }
   }
-  if (first != tree.others_in_piles.size()) return wrong("it has spheres of no pile");
+  if (first != tree.others_in_piles.size()) return wrong("it has duplicates of no sphere");
   return Done{};
 }
 
@@ -129,13 +129,13 @@ Status check_repeated(const WideTree& tree, const SphereSet& set) {
 }  // namespace
 
 Status validate_wide_tree(const WideTree& tree, const SphereSet& set) {
-  if (tree.size != set.size()) return wrong("it has not one place a sphere");
-  if (tree.scale != set.scale()) return wrong("it has another scale than the spheres");
+  if (tree.size != set.size()) return wrong("it does not have one slot per sphere");
+  if (tree.scale != set.scale()) return wrong("its scale differs from the spheres'");
   if (set.empty()) return tree.node_count == 0 ? Status(Done{}) : wrong("it has nodes without spheres");
   if (tree.node_count < 1) return wrong("it has no root");
   if (tree.spheres.has_palette == (tree.spheres.r != nullptr)) return wrong("it has a palette and radii, or neither");
 
-  // Walk it; mark nodes and spheres as they are met.
+  // Traverse it; mark nodes and spheres as they are met.
   std::vector<bool> node_met(static_cast<std::size_t>(tree.node_count)),
       sphere_met(static_cast<std::size_t>(set.size()));
   std::int64_t largest_leaf = 0;
@@ -168,7 +168,7 @@ Status validate_wide_tree(const WideTree& tree, const SphereSet& set) {
   Status piles = check_piles(tree, set, sphere_met);
   if (!piles) return piles;
 
-  // Everything was met, and the tree says of itself what is so.
+  // Everything was met, and the tree's own numbers agree.
   for (std::size_t i = 0; i < node_met.size(); ++i)
     if (!node_met[i]) return wrong("is not reached from the root", static_cast<std::int64_t>(i));
   for (std::size_t i = 0; i < sphere_met.size(); ++i)
