@@ -12,8 +12,9 @@ namespace bihive::wide {
 constexpr std::int64_t kFewestToLight = 2048;
 /// Rays per cross-section of a leaf: sixteen of them must fit into a run one leaf wide.
 constexpr double kFewestPerLeaf = 25;
-/// Rays sorted at a time. constexpr std::int64_t kToLightAtATime = 262144; The map of directions has at most 2^bits
-/// cells along each side, and this many rays per cell.
+/// Rays sorted at a time.
+constexpr std::int64_t kToLightAtATime = 262144;
+/// The map of directions has at most 2^bits cells along each side, and this many rays per cell.
 constexpr int kMostCellBits = 8;
 constexpr std::int64_t kRaysPerLightCell = 4;
 
