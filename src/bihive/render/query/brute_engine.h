@@ -7,15 +7,15 @@
 
 namespace bihive {
 
-/// Engine::brute, and with kWide Engine::wide_brute: spans of rays on vectors.
+/// Engine::brute, and with kWide Engine::wide_brute: spans of rays on vectors. Flattened, as ReferenceEngine is.
 template <bool kWide>
 class BruteEngine final : public OneByOne<BruteEngine<kWide>> {
  public:
   /// The spheres must outlive it.
   explicit BruteEngine(const SphereSet& spheres) : spheres_(spheres) {}
 
-  Hit closest_hit(const Ray& ray) const override { return bihive::closest_hit(spheres_, ray); }
-  bool occluded(const Ray& ray) const override { return bihive::occluded(spheres_, ray); }
+  [[gnu::flatten]] Hit closest_hit(const Ray& ray) const override { return bihive::closest_hit(spheres_, ray); }
+  [[gnu::flatten]] bool occluded(const Ray& ray) const override { return bihive::occluded(spheres_, ray); }
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override {
     if (!kWide) return OneByOne<BruteEngine>::closest_hits(rays, order, hits);
     wide_brute_hits(spheres_, rays, hits);

@@ -154,8 +154,9 @@ void ImageEngine::visit_images(const Ray& ray, Visit& visit) const {
   }
 }
 
+// Flattened, as ReferenceEngine is.
 template <class Answer>
-void ImageEngine::walk_range(const Range& range, const ScaledRay& ray, Answer& answer) const {
+[[gnu::flatten]] void ImageEngine::walk_range(const Range& range, const ScaledRay& ray, Answer& answer) const {
   AnswerOfImage<Answer> of_image{*this, ray, stored_shift(range), spheres().images().number(range.first), answer};
   if (is_brute(engine_)) {
     for (std::int64_t id = 0; id < spheres().size(); ++id)

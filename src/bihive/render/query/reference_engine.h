@@ -9,6 +9,8 @@
 
 namespace bihive {
 
+/// Its queries are flattened: else it would depend on the other functions of the source file whether GCC inlines the
+/// sphere test into the traversal, and the difference is a fifth of the instructions.
 class ReferenceEngine final : public OneByOne<ReferenceEngine> {
  public:
   /// The spheres must outlive it.
@@ -16,9 +18,9 @@ class ReferenceEngine final : public OneByOne<ReferenceEngine> {
       : spheres_(spheres), tree_(std::move(tree)) {}
 
   using OneByOne::occluded;
-  Hit closest_hit(const Ray& ray) const override { return bihive::closest_hit(*tree_, spheres_, ray); }
-  bool occluded(const Ray& ray) const override { return bihive::occluded(*tree_, spheres_, ray); }
-  void find_all(const Ray& ray, AllHits& all) const {
+  [[gnu::flatten]] Hit closest_hit(const Ray& ray) const override { return bihive::closest_hit(*tree_, spheres_, ray); }
+  [[gnu::flatten]] bool occluded(const Ray& ray) const override { return bihive::occluded(*tree_, spheres_, ray); }
+  [[gnu::flatten]] void find_all(const Ray& ray, AllHits& all) const {
     NoObserver observer;
     walk(*tree_, spheres_, ScaledRay(ray, spheres_), all, observer);
   }

@@ -72,7 +72,7 @@ RaySpan SubsetEngine::translated(const RaySpan& rays) const {
     all_leaves[i] = subset_->equal_of(rays.leaves[i]);
     if (cuts_ == nullptr) continue;
     all_inside[i] = rays.inside != nullptr ? rays.inside[i] : 0;
-    if (!cuts_->is_cut(rays.leaves[i])) continue;
+    if (!cuts_->is_cut(rays.leaves[i]) || (all_leaves[i] == kNothing && !cuts_->has_round_clips())) continue;
     const Ray ray = translated(rays.at(static_cast<std::int64_t>(i)));
     all_leaves[i] = ray.leaves;
     all_inside[i] = ray.inside ? 1 : 0;
