@@ -114,7 +114,6 @@ class BadFiles(ProgramTest):
             "a.stl": (b"solid cube\n", "a mesh (STL)"),
             "a": (b"%VERSION  VERSION_STAMP = V0001.000\n", "a topology of Amber (PRMTOP), without coordinates"),
             "a.json": (b'{"1": {"numbers": [1, 8]}}', "a database of ASE in JSON"),
-            "a.xyz.bz2": (b"BZh91AY&SY", "a file packed with bzip2"),
             "a.cube": (b"a\nb\n 1 0 0 0\n 2 1 0 0\n 2 0 1 0\n 2 0 0 1\n", "a cube of Gaussian"),
         }
         for name, (content, what) in files.items():

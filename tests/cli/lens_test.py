@@ -74,7 +74,7 @@ class DepthOfField(LensTest):
             self.assertIn("--aperture: expected a number", said("--aperture=" + value))
         for value in ["0", "-1", "1e39"]:
             self.assertIn('--focus: expected a number above 0 and up to 3.4e38, "auto" or a selection', said("--aperture", "1", "--focus=" + value))
-        self.assertIn("--focus: 'x' needs values or a comparison behind it", said("--aperture", "1", "--focus", "x"))
+        self.assertIn("--focus: 'x' needs values or a comparison after it", said("--aperture", "1", "--focus", "x"))
         self.assertIn("--focus changes nothing without an aperture", said("--focus", "3"))
         self.assertIn("orthographic camera has no lens", said("--aperture", "1", "--projection", "orthographic"))
         for keys, place in [('"aperture": -1', "/camera/aperture: expected a number of at least 0"),

@@ -105,7 +105,7 @@ class WrongUsage(ProgramTest):
             "--fov": ["0", "180", "-30", "nan", "wide"],
             "--radius": ["-1", "nan", "inf", "1e39", "1m"],
             "--radius-scale": ["-1", "nan"],
-            "--frame": ["-1", "1.5"],
+            "--frame": ["x", "1.5"],
             "--count": ["0", "-1", "1e3", "0x10"],
             "--seed": ["-1", "18446744073709551616", "x"],
             "--view": ["pretty", ""],

@@ -56,7 +56,7 @@ class ManualPages(Words):
 
     def test_a_page_says_what_help_says_of_an_option(self):
         self.assertIn("\n.TP\n--view shaded|recursion", self.shown("render"))
-        self.assertIn("Degrees: the camera goes AZ to the right and EL up around what it looks at;", self.shown("film"))
+        self.assertIn("Degrees: the camera moves AZ to the right and EL up around its target;", self.shown("film"))
         self.assertIn("\nbihive render INPUT [TRAJECTORY] -o FILE [OPTION]...\n", self.shown("render"))
         self.assertIn("\nbihive thesis [EXPERIMENT]... [OPTION]...\n", self.shown("thesis"))
 

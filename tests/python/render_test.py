@@ -248,7 +248,7 @@ class Failures(ProgramTest):
             ({"progress": 3}, "progress"),
             ({"shininess": 3}, "shininess"),
             ({"json": True}, "json"),
-            ({"frame": -1}, "frame"),
+            ({"frame": 1.5}, "frame"),
             ({"trajectory": "a.dcd"}, "trajectory"),
             ({"replicate": (2, 2, 2)}, "replicate"),
         ]:
