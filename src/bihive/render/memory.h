@@ -28,12 +28,12 @@ Status check_film_memory(const RenderSettings& settings, double held_bytes);
 Status check_render_memory(const SphereSet& spheres, Engine engine, const TreeParameters& parameters,
                            const RenderSettings& settings, double band_bytes);
 
-/// A picture of at most so many bytes is drawn at once: 3840 x 2160 pixels of 8 bits are. The limit sets the memory
+/// Largest picture, in bytes, that is drawn at once: 3840 x 2160 pixels of 8 bits are. The limit sets the memory
 /// alone: `bihive render demo --style plain --samples 1 --size 6000x1680` took 0.8 to 0.9 seconds of processor time in
 /// bands of 5 to 180 MB.
 constexpr double kBandBytes = 256.0 * 1024 * 1024;
 
-/// The rows of a band for render_in_bands(), if a row takes so many bytes as film, display values and file: all, if
+/// The rows of a band for render_in_bands(), if a row takes this many bytes as film, display values and file: all, if
 /// they take at most kBandBytes and a quarter of the memory; else as many as do, at least one.
 int rows_of_band(int rows, double bytes_of_row);
 

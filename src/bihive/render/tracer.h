@@ -61,8 +61,8 @@ class Tracer {
                               int threads = 0);
 
   /// The same for a scene, whose clips (scene/clips.h) cut its spheres open. Without clips it is the tracer of the
-  /// scene's spheres. `first`: so many spheres are traced, and rays may leave the others too; below 0: all. If that is
-  /// not all, clips must cut some sphere.
+  /// scene's spheres. `first`: the number of spheres that are traced; rays may exit the others too; below 0: all. If
+  /// that is not all, clips must cut some sphere.
   static Result<Tracer> build(const Scene& scene, Engine engine, const TreeParameters& parameters = {}, int threads = 0,
                               std::int64_t first = -1);
 

@@ -9,7 +9,7 @@
 namespace bihive {
 
 /// A tree of boxes above points. Every inner node parts its points at a median, so neither clusters nor points far away
-/// make it deep. Equal points lie in one leaf, so many of them make a search no longer.
+/// make it deep. Equal points share one leaf; any number of them makes a search no longer.
 class NearestPlace {
  public:
   /// The points must be finite, below 1e39 in size, and at least one.

@@ -22,7 +22,7 @@ constexpr double kRadiusOfOnePlace = 0.5;
 
 // More distances would move their middle by little, and each search costs a microsecond.
 constexpr std::size_t kMostSearches = 65536;
-// A thread does so many without a pause.
+// Spheres per task.
 constexpr std::size_t kSearchesOfABundle = 1024;
 
 // The van der Waals radius, or 0 if the sphere has no known element.

@@ -13,7 +13,7 @@ namespace bihive {
 /// A reader needs this of the whole file to read one frame by its bytes alone. Everything in it is places: the
 /// bytes themselves stay in the file.
 struct FrameIndex {
-  PlaceList frames;          ///< one behind the other, the first from byte 0 on
+  PlaceList frames;          ///< one after the other, the first from byte 0 on
   PlaceList assembly_lines;  ///< PDB: runs of REMARK 350
   PlaceList cell_lines;      ///< PDB: each CRYST1
   bool text_behind = false;  ///< XYZ: text that is no frame follows the last one

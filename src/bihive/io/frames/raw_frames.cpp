@@ -203,12 +203,12 @@ class IndexedText : public RawFrames {
     return pass({begin, file_.size(), index_.lines}, FramePass{frame, index_.count()});
   }
 
-  Result<RawSpheres> pass(const TextPlace& place, FramePass wish, bool* is_cut = nullptr) const {
-    wish.columns = columns_;
+  Result<RawSpheres> pass(const TextPlace& place, FramePass request, bool* is_cut = nullptr) const {
+    request.columns = columns_;
     FileText part{file_, place.begin, place.end, place.lines_before, {}};
     const TextScanner scanner(part);
     if (is_cut != nullptr) *is_cut = !scanner.ends_in_newline();
-    Result<RawSpheres> read = (*std::get_if<TextReader>(&format_.reader))(scanner, wish);
+    Result<RawSpheres> read = (*std::get_if<TextReader>(&format_.reader))(scanner, request);
     if (part.fault) return *part.fault;
     return read;
   }

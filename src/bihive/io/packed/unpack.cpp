@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kGzipMark = "\x1f\x8b";
 
-// A text grows by this factor, and has room for so many bytes from the beginning.
+// Growth factor of the unpacked text, and its first capacity in bytes.
 constexpr double kGrowth = 1.5;
 constexpr double kLeastRoom = 1 << 20;
 

@@ -16,10 +16,10 @@ namespace bihive {
 namespace {
 
 // Bytes of text between two joinings of the parts: as many as were read before, so that memory is asked for in time,
-// and in these limits. A block has so many parts. None of this depends on the number of threads.
+// and in these limits. A block has this many chunks. None of this depends on the number of threads.
 constexpr std::int64_t kLeastBlockBytes = std::int64_t{1} << 18, kMostBlockBytes = std::int64_t{1} << 23;
 constexpr std::int64_t kParts = 32;
-// So many rows are read one by one first; most columns show by them what they hold.
+// Rows that are read one by one first: most columns show by them what they hold.
 constexpr std::int64_t kFirstRows = 16;
 
 // Bytes are compared in groups that fit a counter of eight bits: compilers make vectors of that.
@@ -36,7 +36,7 @@ std::int64_t count_lines(std::string_view text) {
   return lines + (!text.empty() && text.back() != '\n' ? 1 : 0);
 }
 
-// The first so many lines of the text, which has more.
+// The first N lines of the text, which has more.
 std::string_view first_lines(std::string_view text, std::int64_t lines) {
   std::size_t end = 0;
   for (; lines > 0; --lines) end = text.find('\n', end) + 1;

@@ -38,7 +38,7 @@ bool TextScanner::more_in_file() const {
   return part_ != nullptr && text_end_ < part_->end && !part_->fault;
 }
 
-// Lets the window begin at the next line, and reads about so many more bytes of the file behind it.
+// Moves the start of the window to the next line, and reads about this many more bytes of the file after it.
 void TextScanner::take_more(std::int64_t bytes) {
   if (!more_in_file()) return;
   // A copy of this scanner may look into the old window.

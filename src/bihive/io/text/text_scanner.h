@@ -48,13 +48,13 @@ class TextScanner {
   /// Goes to the next line without reading the present one: the fast way past `count` lines. False at the end.
   bool skip_lines(std::int64_t count);
 
-  /// The lines behind the current one, whole: about so many bytes of them, at least one line, none at the end. The view
+  /// The whole lines after the current one: about this many bytes, at least one line, none at the end. The view
   /// lives until the scanner goes on.
   std::string_view peek_lines(std::int64_t bytes);
-  /// Goes behind so many bytes of peek_lines(), which are so many lines. The last of them is the current line then, but
-  /// its text is not read.
+  /// Skips the first bytes of peek_lines(), which are this number of lines. The last of them is the current line then,
+  /// but its text is not read.
   void skip_peeked(std::int64_t bytes, std::int64_t lines);
-  /// A scanner of a part of peek_lines(), behind so many of its lines; its errors name the file's lines.
+  /// A scanner of the rest of peek_lines() after this number of lines; its errors name the file's lines.
   TextScanner part(std::string_view lines, std::int64_t lines_before) const;
 
   std::string_view line() const { return line_; }

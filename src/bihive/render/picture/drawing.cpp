@@ -24,7 +24,7 @@ constexpr int kScalarTilePx = 16;
 // Outlines and fog keep something for each sample of a tile, so there are small tiles if there are many samples.
 constexpr int kSamplesOfLargeTiles = 64;
 
-// Every pixel gets so many samples first.
+// First samples of every pixel.
 int first_samples(const RenderSettings& settings) {
   return settings.adaptive_samples ? kFewSamples : settings.samples_per_pixel;
 }

@@ -148,7 +148,7 @@ Status check_layers(const Scene& scene, const std::vector<Layer>& layers) {
       return Error{"the layer " + names.back() + " stands twice", "", 0, 0, "leave one out"};
     const bool has_ids = layer.kind == LayerKind::id && scene.spheres.size() > 0;
     if (has_ids && input_id(scene, scene.spheres.total_size() - 1) >= std::int64_t{kIdOfPlane})
-      return Error{"the ids of so many spheres have more than 32 bits", "", 0, 0, "leave the layer id out"};
+      return Error{"ids of this many spheres need more than 32 bits", "", 0, 0, "leave the layer id out"};
     if (layer.kind != LayerKind::attribute) continue;
     const FoundAttribute attribute = find_attribute(scene.spheres, layer.attribute);
     if (!attribute.found())

@@ -100,7 +100,7 @@ Status GsdFile::read_head() {
       names_place > size)
     return damaged("its index lies outside of it");
 
-  // Names: of fixed length in files of version 1, one behind the other later.
+  // Names: of fixed length in files of version 1, one after the other in later ones.
   std::vector<std::string> names;
   const Result<std::string> list =
       file_.read(static_cast<std::int64_t>(names_place), static_cast<std::int64_t>(names_entries) * kNameBytes);

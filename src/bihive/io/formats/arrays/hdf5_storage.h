@@ -32,7 +32,7 @@ class Hdf5Handle {
 /// that looks at the set, as a virtual one may open its sources to tell its shape.
 RefusedArray refusal_of(const Hdf5Functions& hdf5, hid_t set, const std::string& name);
 
-/// Whether so many bytes, as a part of a data set needs them, are there: stored in the file, and packed within reason.
+/// Whether the file can hold this many bytes of a data set: stored in it, or packed within reason.
 /// The message of an error, or an empty text.
 std::string missing_bytes(const Hdf5Functions& hdf5, hid_t set, std::int64_t file_size,
                           const std::vector<hsize_t>& begin, const std::vector<hsize_t>& lengths);

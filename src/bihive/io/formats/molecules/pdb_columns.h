@@ -32,7 +32,7 @@ class ResidueNames {
 };
 
 /// How many digits the serial number (from column 7) and the residue's number (from column 23) have more than their
-/// columns hold. What follows them stands so many columns further to the right.
+/// columns hold. What follows them is shifted to the right by this many columns.
 struct ColumnShift {
   std::size_t serial = 0, residue = 0;
 

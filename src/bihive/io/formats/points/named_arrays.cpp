@@ -65,7 +65,7 @@ Result<RawSpheres> spheres_of_named_arrays(const NamedArrays& all, const std::st
   }
   const std::int64_t rows = found->rows();
 
-  // Each column of each array with so many rows.
+  // Each column of each array that has this number of rows.
   std::vector<TableColumn> columns;
   std::vector<std::pair<const NamedArray*, std::size_t>> sources;
   bool has_places = false;

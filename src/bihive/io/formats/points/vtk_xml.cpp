@@ -321,7 +321,7 @@ class VtkXmlReader {
     }
   }
 
-  // Takes so many bytes from the source; fewer if it ends.
+  // Takes up to this many bytes; fewer if the source ends.
   static std::string take(std::string_view& source, bool raw, std::size_t most) {
     std::size_t used = std::min(most, source.size());
     std::string bytes = raw ? std::string(source.substr(0, used)) : from_base64(source, most, used);

@@ -289,10 +289,10 @@ void shade_primaries(const WaveScene& scene, const WavePart& rays, const double*
 
 /// reflected_ray() and transmitted_ray() of the surfaces from number `first` on, if the material has them, in the order
 /// of the surfaces, the reflected one first. Appended to `next`, which must have room for two rays a surface.
-struct SentOn {
+struct SpawnedRays {
   std::int64_t reflected = 0, transmitted = 0;
 };
-SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
+SpawnedRays spawn_secondary_rays(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next);
 
 /// toned() of the light of owners 0 to count - 1 that hit something: hit[owner] is not 0.
 void tone_light(const Tone& tone, const std::uint8_t* hit, std::int64_t count, WaveSums& sums);

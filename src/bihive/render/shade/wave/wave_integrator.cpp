@@ -250,9 +250,9 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
     steps::add_local_light(scene_, surfaces, {}, {}, buffers.sums);
   }
   if (next == nullptr) return;
-  const steps::SentOn sent = steps::send_on(scene_, surfaces, known, *next);
-  rays_.reflected += sent.reflected;
-  rays_.transmitted += sent.transmitted;
+  const steps::SpawnedRays spawned = steps::spawn_secondary_rays(scene_, surfaces, known, *next);
+  rays_.reflected += spawned.reflected;
+  rays_.transmitted += spawned.transmitted;
 }
 
 // Faint surfaces occur only where spheres are passed straight.

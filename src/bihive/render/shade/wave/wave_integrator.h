@@ -37,8 +37,8 @@ struct AnswersAhead {
   bool any() const { return next < rays.size(); }
 };
 
-/// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes a ray of the largest generation,
-/// and with ambient occlusion some 150 more.
+/// Buffers that a thread keeps from one piece of a picture to the next: some 100 bytes per ray of the largest
+/// generation, and with ambient occlusion some 150 more.
 struct WaveBuffers {
   std::vector<Wave> generations;
   std::vector<CrossingBuffers> crossings;  ///< of each generation

@@ -1,7 +1,7 @@
 #include "bihive/render/shade/wave/wave.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bihive/render/shade/wave/send_on.cpp"
+#define HWY_TARGET_INCLUDE "bihive/render/shade/wave/spawn_secondary_rays.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -14,20 +14,20 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 
 // One ray from each surface.
-struct SentLanes {
+struct SpawnedLanes {
   Lanes3 direction;
   Lanes weight;
   Longs inside;
 };
 
-HWY_INLINE SentLanes choose(LaneMask mask, const SentLanes& yes, const SentLanes& no) {
+HWY_INLINE SpawnedLanes choose(LaneMask mask, const SpawnedLanes& yes, const SpawnedLanes& no) {
   return {choose(mask, yes.direction, no.direction), hn::IfThenElse(mask, yes.weight, no.weight),
           hn::IfThenElse(longs_of(mask), yes.inside, no.inside)};
 }
 
 // transmitted_ray(), if the mirrored one is known.
-HWY_INLINE SentLanes transmitted(const MaterialLanes& material, Lanes3 incoming, Lanes3 normal, LaneMask on_plane,
-                                 const SentLanes& reflected) {
+HWY_INLINE SpawnedLanes transmitted(const MaterialLanes& material, Lanes3 incoming, Lanes3 normal, LaneMask on_plane,
+                                    const SpawnedLanes& reflected) {
   const Longs one = hn::Set(LongTag(), 1);
   const LaneMask from_inside = lanes_of(hn::Eq(reflected.inside, one));
   const Lanes index = material.refraction_index;
@@ -40,22 +40,23 @@ HWY_INLINE SentLanes transmitted(const MaterialLanes& material, Lanes3 incoming,
 
   // Total internal reflection stays inside; a plane is thin.
   const LaneMask total = hn::Lt(beyond_squared, all(0));
-  SentLanes sent{choose(total, reflected.direction, refracted), reflected.weight,
-                 hn::IfThenElse(longs_of(total), reflected.inside, hn::Sub(one, reflected.inside))};
-  sent.direction = choose(on_plane, incoming, sent.direction);
-  sent.inside = hn::IfThenZeroElse(longs_of(on_plane), sent.inside);
-  return sent;
+  SpawnedLanes spawned{choose(total, reflected.direction, refracted), reflected.weight,
+                       hn::IfThenElse(longs_of(total), reflected.inside, hn::Sub(one, reflected.inside))};
+  spawned.direction = choose(on_plane, incoming, spawned.direction);
+  spawned.inside = hn::IfThenZeroElse(longs_of(on_plane), spawned.inside);
+  return spawned;
 }
 
 // If a surface sends two rays, they must be neighbours.
-HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMask reflects, const SentLanes& reflected,
-                            LaneMask transmits, const SentLanes& through, Wave& next) {
+HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMask reflects,
+                            const SpawnedLanes& reflected, LaneMask transmits, const SpawnedLanes& through,
+                            Wave& next) {
   struct Sent {
     alignas(64) double direction[3][kLanes], weight[kLanes];
     alignas(64) std::int64_t inside[kLanes];
     std::uint8_t bits[8] = {};
   } sent[2];
-  const auto keep = [](LaneMask mask, const SentLanes& lanes, Sent& to) HWY_ATTR {
+  const auto keep = [](LaneMask mask, const SpawnedLanes& lanes, Sent& to) HWY_ATTR {
     hn::Store(lanes.direction.x, Tag(), to.direction[0]);
     hn::Store(lanes.direction.y, Tag(), to.direction[1]);
     hn::Store(lanes.direction.z, Tag(), to.direction[2]);
@@ -82,9 +83,10 @@ HWY_INLINE void append_both(const WaveSurfaces& surfaces, std::int64_t i, LaneMa
     }
 }
 
-steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next) {
+steps::SpawnedRays spawn_secondary_rays_on_target(const WaveScene& scene, const WaveSurfaces& surfaces,
+                                                  std::int64_t first, Wave& next) {
   const LongTag w;
-  steps::SentOn sent;
+  steps::SpawnedRays spawned;
   for (std::int64_t i = first; i < surfaces.count; i += kLanes) {
     // A share of exactly 0 makes no ray, nor does a faint one.
     const LaneMask there = first_lanes(surfaces.count - i);
@@ -107,20 +109,20 @@ steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surf
     const Lanes3 normal = load(surfaces.normal, i);
     const Longs inside = hn::And(material_inside, hn::Set(w, 1));
     const Lanes3 mirrored = subtract(incoming, multiply(hn::Mul(all(2), dot(incoming, normal)), normal));
-    SentLanes ray{mirrored, reflected_weight, inside};
+    SpawnedLanes ray{mirrored, reflected_weight, inside};
     if (!none(transmits)) {
       const LaneMask on_plane = lanes_of(hn::Eq(id, hn::Set(w, kPlane)));
-      SentLanes through = transmitted(material, incoming, normal, on_plane, ray);
+      SpawnedLanes through = transmitted(material, incoming, normal, on_plane, ray);
       through.weight = transmitted_weight;
-      sent.transmitted += static_cast<std::int64_t>(hn::CountTrue(Tag(), transmits));
-      sent.reflected += static_cast<std::int64_t>(hn::CountTrue(Tag(), reflects));
+      spawned.transmitted += static_cast<std::int64_t>(hn::CountTrue(Tag(), transmits));
+      spawned.reflected += static_cast<std::int64_t>(hn::CountTrue(Tag(), reflects));
       if (!none(hn::And(reflects, transmits))) {
         append_both(surfaces, i, reflects, ray, transmits, through, next);
         continue;
       }
       ray = choose(transmits, through, ray);
     } else {
-      sent.reflected += static_cast<std::int64_t>(hn::CountTrue(Tag(), reflects));
+      spawned.reflected += static_cast<std::int64_t>(hn::CountTrue(Tag(), reflects));
     }
 
     const Appender append(sends, next.count);
@@ -133,7 +135,7 @@ steps::SentOn send_on_on_target(const WaveScene& scene, const WaveSurfaces& surf
     append(ray.inside, next.inside);
     next.count += append.count();
   }
-  return sent;
+  return spawned;
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -143,13 +145,13 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace bihive {
-HWY_EXPORT(send_on_on_target);
+HWY_EXPORT(spawn_secondary_rays_on_target);
 
 namespace steps {
 
-SentOn send_on(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next) {
+SpawnedRays spawn_secondary_rays(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first, Wave& next) {
   ensure_target();
-  return HWY_DYNAMIC_DISPATCH(send_on_on_target)(scene, surfaces, first, next);
+  return HWY_DYNAMIC_DISPATCH(spawn_secondary_rays_on_target)(scene, surfaces, first, next);
 }
 
 }  // namespace steps
