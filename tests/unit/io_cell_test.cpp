@@ -190,7 +190,7 @@ TEST(Cell, ThatCannotBeReadIsTold) {
                              "CRYST1    0.000    0.000    0.000  90.00  90.00  90.00 P 1\n", "CRYST1\n"})
     EXPECT_EQ(warnings(record + kAtom, "a.pdb"), "") << record;
 
-  // mmCIF has the same placeholder.
+  // Both formats write 1 x 1 x 1 where there is no crystal.
   const std::string atoms =
       "loop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.type_symbol\n1 2 3 C\n";
   const auto cell = [](const std::string& a) {

@@ -29,21 +29,6 @@ bool is_placeholder_cell(const std::array<double, 6>& given) {
   return all(1) || all(0);
 }
 
-std::optional<Cell> cell_of_vectors(std::string_view nine) {
-  TextScanner scanner(nine, "");
-  if (!scanner.next_line()) return std::nullopt;
-  Cell cell;
-  std::string_view field;
-  for (Vec3d& vector : cell.vectors)
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!scanner.next_field(field)) return std::nullopt;
-      const std::optional<double> number = parse_double(field);
-      if (!number || !std::isfinite(*number)) return std::nullopt;
-      vector[axis] = *number;
-    }
-  return scanner.next_field(field) ? std::nullopt : std::optional<Cell>(cell);
-}
-
 std::string unreadable_cell(std::int64_t frame) {
   return "frame " + std::to_string(frame) + ": the numbers of its cell make none, so it is left out";
 }

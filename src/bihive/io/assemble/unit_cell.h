@@ -17,8 +17,6 @@ std::optional<Cell> unit_cell(const std::array<double, 6>& lengths_and_angles);
 /// Whether these are the numbers that PDB and mmCIF files without a crystal have: lengths of 1, or of 0.
 bool is_placeholder_cell(const std::array<double, 6>& lengths_and_angles);
 
-/// From nine numbers with blanks between them: the vectors a, b and c one after the other.
-std::optional<Cell> cell_of_vectors(std::string_view nine);
 /// The warning for a frame that states a cell whose numbers make none.
 std::string unreadable_cell(std::int64_t frame);
 
