@@ -19,7 +19,6 @@
 namespace bihive::cli {
 namespace {
 
-constexpr std::int64_t kMostThreads = 4096;
 constexpr std::int64_t kLargestPort = 65535;
 
 // An option with one value of its own syntax: `parse` turns the text into a Result.
@@ -89,6 +88,10 @@ void add_input_options(CLI::App& app, InputOptions& input) {
 
 void add_tree_options(CLI::App& app, TreeParameters& tree) {
   for (const RequestOption<TreeParameters>& row : tree_options()) add_option_of(app, row, tree);
+}
+
+void add_threads(CLI::App& app, std::int64_t& threads) {
+  add_integer(app, "--threads", threads, 0, kMostThreads, picture_option("threads")->help);
 }
 
 void add_json_flag(CLI::App& app, bool& json) {
@@ -233,8 +236,7 @@ void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
   command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
   add_choice(command, "--engine", options.engine, kEngines, "The engine (auto); all give the same bits");
   add_tree_options(command, options.tree);
-  add_integer(command, "--threads", options.threads, 0, kMostThreads,
-              "Threads (0: as many as the machine runs at once)");
+  add_threads(command, options.threads);
   add_input_options(command, options.input);
 }
 
@@ -331,8 +333,7 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
   });
   command.add_flag("--quick", options.quick, "Everything small: within a minute on two cores");
   add_value(command, "--seed", options.seed, "S", "Seed of the random scenarios (1)", seed_from);
-  add_integer(command, "--threads", options.threads, 0, kMostThreads,
-              "Threads (0: as many as the machine runs at once)");
+  add_threads(command, options.threads);
   command
       .add_option("--costs", options.costs,
                   "Figure 4.4: judge all claims at these costs: an inner node in sphere tests,\na leaf in inner nodes, "

@@ -100,11 +100,11 @@ Status LookOptions::set_nan_colour(const std::string& text) {
   return Done{};
 }
 
-void LookOptions::hide_word(const std::string& option, const std::string& word) {
+void LookOptions::hide_word(const std::string& id, const std::string& word) {
   looks.push_back({word, {SetShown{false}}});
-  of_look.push_back(setting_of_option(option));
+  of_look.push_back(id);
   rows.push_back({word, "hide", ""});
-  words.push_back(option);
+  words.push_back(option_of_setting(id));
   if (!has_current_) return;
   // Later actions apply to the previous selection, but come after this one.
   looks.push_back({looks[current_].select, {}});

@@ -33,8 +33,8 @@ struct LookOptions {
   Status act(const std::string& name, const std::string& text);
   /// Fails with kBadUsage on a selection with no action after it.
   void check_for_action() const;
-  /// --no-hydrogens and --no-water: hide what the word selects; the selection of the next actions stays.
-  void hide_word(const std::string& option, const std::string& word);
+  /// no_hydrogens and no_water: hides what the word selects; the selection of the next actions stays.
+  void hide_word(const std::string& id, const std::string& word);
 
  private:
   void add(LookAction action, const std::string& name);

@@ -22,7 +22,6 @@ using Take = decltype(Row::take);
 constexpr ParameterRanks kChunks = ParameterRanks::chunks, kWhole = ParameterRanks::whole;
 
 constexpr double kLargestFloat = 3.4028234663852886e38;
-constexpr std::int64_t kMostThreads = 4096;
 constexpr double kMostZoom = 1e6;
 constexpr double kMostDotsPerInch = 1e6;
 constexpr const char* kTwice = "is given more than once before a select";
@@ -373,8 +372,8 @@ void add_spheres(Rows& rows) {
           return Done{};
         }},
        action_switch("no_hydrogens", "Hide hydrogen",
-                     [](LookOptions& looks) { looks.hide_word("--no-hydrogens", "hydrogen"); }),
-       action_switch("no_water", "Hide water", [](LookOptions& looks) { looks.hide_word("--no-water", "water"); })});
+                     [](LookOptions& looks) { looks.hide_word("no_hydrogens", "hydrogen"); }),
+       action_switch("no_water", "Hide water", [](LookOptions& looks) { looks.hide_word("no_water", "water"); })});
   // Both also apply to all spheres, which ranks then know without their ids.
   for (Row& row : rows)
     if (row.id == "outline" || (row.id == "radius_scale" && reading_setting("radius_scale")->with_chunks))

@@ -12,6 +12,9 @@
 
 namespace bihive {
 
+/// The most threads that may be asked for.
+inline constexpr std::int64_t kMostThreads = 4096;
+
 /// In the order of help.
 const std::vector<RequestOption<PictureRequest>>& picture_options();
 /// Those of the input alone: `count`, `seed` and all of reading.
