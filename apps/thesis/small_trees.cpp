@@ -158,7 +158,7 @@ Json build_as_stated(const Experiment& experiment) {
 }
 
 // The text's statements about the colours: the smallest green is that of one gap; where there is more green than blue;
-// where a ray passes the most gaps.
+// where a ray crosses the largest number of gaps.
 void add_colours(Json& data) {
   double smallest = 1, most = 0;
   std::vector<std::string> green, widest;

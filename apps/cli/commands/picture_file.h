@@ -28,7 +28,7 @@ bool is_exr(const std::string& output);
 /// and the exposure and curve that scene or style mean for a screen. Fails if options contradict the file's kind.
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
 
-/// What the file needs besides its pixels. All except the text must outlive it.
+/// Data of the file besides its pixels. All members except the text must outlive the file.
 struct PictureToWrite {
   const RenderOptions& options;
   const Scene& scene;
