@@ -38,7 +38,7 @@ std::uint32_t z_code(std::uint32_t x, std::uint32_t y) {
 }
 
 PixelRaySet primary_rays(const Scene& scene, int side) {
-  const PixelRays pixels(scene.camera, side, side);
+  const PixelRays pixels(local_camera(scene), side, side);
   const auto blocks = static_cast<std::uint32_t>(side / kBlock);
   std::uint32_t codes = 1;
   while (codes < blocks) codes *= 2;

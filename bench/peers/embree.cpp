@@ -39,7 +39,7 @@ Result<std::unique_ptr<Embree>> Embree::start(const SphereSet& spheres, int thre
   peer->sphere_count_ = spheres.size();
   peer->points_.resize(static_cast<std::size_t>(4 * spheres.size()));
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    const Vec3f centre = to_float(spheres.centre(id));
+    const Vec3f centre = to_float(spheres.local_centre(id));
     const float point[4] = {centre.x, centre.y, centre.z, static_cast<float>(spheres.radius(id))};
     std::copy(point, point + 4, peer->points_.begin() + 4 * id);
   }

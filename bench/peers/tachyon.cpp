@@ -38,8 +38,8 @@ std::string spheres_in_its_language(const Scene& scene, const RenderSettings& se
       name = fmt::format("ball{}", textures.size());
       text += texture(name, material, settings);
     }
-    text += fmt::format("Sphere Center {} Rad {:.9g} {}\n", place(scene.spheres.centre(id)), scene.spheres.radius(id),
-                        name);
+    text += fmt::format("Sphere Center {} Rad {:.9g} {}\n", place(scene.spheres.local_centre(id)),
+                        scene.spheres.radius(id), name);
   }
   return text;
 }

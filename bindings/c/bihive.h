@@ -40,9 +40,13 @@ BIHIVE_API const char* bihive_error_text(void);
 typedef struct bihive_tree bihive_tree;
 
 /* Copies `count` spheres, and builds their tree. Centres and radii are rounded once, to single precision of the set's
- * extent. Failures: a number that is not finite or beyond 3.4e38, a negative radius, not enough memory. */
+ * extent, wherever it is: far from 0 they count from an origin near its middle (docs/precision.md). Failures: a number
+ * that is not finite or beyond 3.4e38, a negative radius, not enough memory. */
 BIHIVE_API int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree);
 BIHIVE_API void bihive_tree_free(bihive_tree* tree);
+/* "", or a sentence: how many centres the rounding moved by more than 1 % of their radius, because the radii are too
+ * small for the extent. Valid as long as the tree. */
+BIHIVE_API const char* bihive_tree_warning(const bihive_tree* tree);
 BIHIVE_API int64_t bihive_tree_size(const bihive_tree* tree);
 
 /* ---- Rays ---- */
@@ -51,12 +55,13 @@ BIHIVE_API int64_t bihive_tree_size(const bihive_tree* tree);
  * valid (a number that is not finite, a direction of length 0, t_min > t_max) hits nothing. */
 typedef struct bihive_rays {
   int64_t count;
-  const float* origins;    /* xyz */
+  const float* origins;    /* xyz; unused if origins64 is there */
   const float* directions; /* xyz */
   const double* t_min;     /* NULL: 0 */
   const double* t_max;     /* NULL: infinity */
   const int64_t* leaves;   /* id of the sphere on whose surface the ray starts, or -1; NULL: none */
   const uint8_t* inside;   /* 1: it goes into that sphere; NULL: 0 */
+  const double* origins64; /* xyz in double precision, for spheres far from 0; NULL: origins */
 } bihive_rays;
 
 /* The nearest hit: t (infinity: none) and the sphere. Of equal t the smaller id counts. */

@@ -19,6 +19,7 @@
 
 struct bihive_tree {
   std::shared_ptr<const bihive::WideTree> tree;
+  std::string warning;
 };
 
 struct bihive_lists {
@@ -34,13 +35,14 @@ constexpr std::int64_t kRaysPerPart = 1 << 17;
 
 bool ready(const bihive_tree* tree, const bihive_rays* rays) {
   return tree != nullptr && rays != nullptr && rays->count >= 0 &&
-         (rays->count == 0 || (rays->origins != nullptr && rays->directions != nullptr));
+         (rays->count == 0 ||
+          ((rays->origins != nullptr || rays->origins64 != nullptr) && rays->directions != nullptr));
 }
 
-// Rays first to first + count - 1 as the engine takes them.
+// Rays first to first + count - 1 as the engine takes them: local (geometry/sphere_set.h).
 class Columns {
  public:
-  Columns(const bihive_rays& rays, std::int64_t first, std::int64_t count) {
+  Columns(const bihive_rays& rays, Vec3d from, std::int64_t first, std::int64_t count) {
     span_.count = count;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<float>& origin = columns_[axis];
@@ -49,7 +51,8 @@ class Columns {
       direction.resize(static_cast<std::size_t>(count));
       for (std::size_t i = 0; i < origin.size(); ++i) {
         const std::size_t at = 3 * (static_cast<std::size_t>(first) + i) + axis;
-        origin[i] = rays.origins[at];
+        const double world = rays.origins64 != nullptr ? rays.origins64[at] : double(rays.origins[at]);
+        origin[i] = static_cast<float>(world - from[static_cast<int>(axis)]);
         direction[i] = rays.directions[at];
       }
       span_.origin[axis] = origin.data();
@@ -69,13 +72,13 @@ class Columns {
 
 // Calls answer(rays, first, chunk) for all chunks of the rays, on threads.
 template <class Answer>
-int for_parts(const bihive_rays& rays, int threads, const Answer& answer) {
+int for_parts(const bihive_tree& tree, const bihive_rays& rays, int threads, const Answer& answer) {
   const std::int64_t parts = (rays.count + kRaysPerPart - 1) / kRaysPerPart;
   std::atomic<bool> no_memory{false};
   parallel_for(threads, parts, [&](std::int64_t part) {
     try {
       const std::int64_t first = part * kRaysPerPart;
-      answer(Columns(rays, first, std::min(kRaysPerPart, rays.count - first)).span(), first, part);
+      answer(Columns(rays, tree.tree->origin, first, std::min(kRaysPerPart, rays.count - first)).span(), first, part);
     } catch (const std::bad_alloc&) {
       no_memory = true;
     }
@@ -120,18 +123,23 @@ int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int t
     if (count < 0) return failed("the number of spheres is negative");
     if (count > 0 && (xyz == nullptr || radii == nullptr)) return failed("the spheres are NULL");
     if (threads < 0) return failed("the number of threads is negative; 0 takes all");
-    const auto spheres = spheres_of(xyz, radii, count);
+    std::string warning;
+    const auto spheres = spheres_of(xyz, radii, count, &warning);
     if (!spheres) return failed(spheres.error());
     WideBuilder builder;
     const auto built = builder.build(*spheres, {}, threads);
     if (!built) return failed(built.error());
-    *tree = new bihive_tree{*built};
+    *tree = new bihive_tree{*built, std::move(warning)};
     return kDone;
   });
 }
 
 void bihive_tree_free(bihive_tree* tree) {
   delete tree;
+}
+
+const char* bihive_tree_warning(const bihive_tree* tree) {
+  return tree == nullptr ? "" : tree->warning.c_str();
 }
 
 int64_t bihive_tree_size(const bihive_tree* tree) {
@@ -142,7 +150,7 @@ int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads
   return guarded([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return failed("there is no place for the hits");
-    return for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
+    return for_parts(*tree, *rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
       closest_hits(*tree->tree, part, RayOrder::any, HitSpan{t, spheres}.part(first));
     });
   });
@@ -152,7 +160,7 @@ int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int thread
   return guarded([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     if (rays->count > 0 && hidden == nullptr) return failed("there is no place for the answers");
-    return for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
+    return for_parts(*tree, *rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
       occluded(*tree->tree, part, RayOrder::any, hidden + first);
     });
   });
@@ -210,7 +218,7 @@ int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int thread
   return guarded([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     std::vector<std::vector<RayHit>> of_part(static_cast<std::size_t>(rays->count / kRaysPerPart + 1));
-    const int done = for_parts(*rays, threads, [&](const RaySpan& part, std::int64_t, std::int64_t number) {
+    const int done = for_parts(*tree, *rays, threads, [&](const RaySpan& part, std::int64_t, std::int64_t number) {
       all_hits(*tree->tree, part, of_part[static_cast<std::size_t>(number)]);
     });
     if (done != kDone) return done;

@@ -32,7 +32,7 @@ static void test_rays(const bihive_tree* tree) {
   const int64_t leaves[] = {-1, -1, -1, 0};
   const uint8_t inside[] = {0, 0, 0, 1};
   const double t_max[] = {INFINITY, INFINITY, INFINITY, 2};
-  bihive_rays rays = {4, NULL, NULL, NULL, NULL, NULL, NULL};
+  bihive_rays rays = {4, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
   double t[4];
   int64_t spheres[4];
   uint8_t hidden[4];
@@ -70,6 +70,31 @@ static void test_rays(const bihive_tree* tree) {
   EXPECT_ERROR(bihive_occluded(tree, NULL, 0, hidden), "NULL");
 }
 
+/* Far from 0 no digit is lost that the set's own extent has room for. */
+static void test_far_spheres(void) {
+  const double places[] = {500000.03, 5400000.01, 100, 500000.23, 5400000.01, 100};
+  const double radii[] = {0.05, 0.05}, wide_places[] = {-1e6, 0, 0, 1e6 + 0.03, 0, 0};
+  const double origins[] = {500000.03, 5400000.01, 90, 500000.23, 5400000.01, 90};
+  const float directions[] = {0, 0, 1, 0, 0, 1};
+  bihive_rays rays = {2, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+  bihive_tree* tree = NULL;
+  double t[2], distances[2];
+  int64_t spheres[2];
+  rays.origins64 = origins;
+  rays.directions = directions;
+  EXPECT(bihive_tree_new(places, radii, 2, 1, &tree) == 0);
+  EXPECT(strcmp(bihive_tree_warning(tree), "") == 0);
+  EXPECT(bihive_closest(tree, &rays, 1, t, spheres) == 0);
+  EXPECT(spheres[0] == 0 && fabs(t[0] - 9.95) < 1e-6);
+  EXPECT(spheres[1] == 1 && fabs(t[1] - 9.95) < 1e-6);
+  EXPECT(bihive_nearest(tree, places, 2, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, distances, spheres) == 0);
+  EXPECT(spheres[0] == 0 && distances[0] < 1e-7 && spheres[1] == 1 && distances[1] < 1e-7);
+  bihive_tree_free(tree);
+  EXPECT(bihive_tree_new(wide_places, radii, 2, 1, &tree) == 0);
+  EXPECT(strstr(bihive_tree_warning(tree), "moves 1 of 2 centres") != NULL);
+  bihive_tree_free(tree);
+}
+
 /* More rays than one part of them holds: each column of a comb meets the sphere below it, on any number of threads. */
 static void test_many_rays(const bihive_tree* tree) {
   const int64_t count = 300000;
@@ -77,7 +102,7 @@ static void test_many_rays(const bihive_tree* tree) {
   float* directions = malloc((size_t)count * 3 * sizeof(float));
   double* t = malloc((size_t)count * sizeof(double));
   int64_t* spheres = malloc((size_t)count * sizeof(int64_t));
-  bihive_rays rays = {0, NULL, NULL, NULL, NULL, NULL, NULL};
+  bihive_rays rays = {0, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
   int64_t i, wrong = 0, hits = 0;
   bihive_lists* lists = NULL;
   if (origins == NULL || directions == NULL || t == NULL || spheres == NULL) exit(3);
@@ -263,6 +288,7 @@ static void test_pictures(void) {
 int main(int argc, char** argv) {
   EXPECT(strcmp(bihive_error_text(), "") == 0);
   test_trees();
+  test_far_spheres();
   test_pictures();
   /* The picture of a file, for comparison with that of `bihive render`: c_library FILE STYLE OUT [NAME VALUE]..., raw
    * RGBA. */

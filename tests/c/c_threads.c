@@ -27,7 +27,7 @@ static answers expected;
 static uint8_t pictures[kSides][kPixels * kPixels * 4];
 
 static int ask_tree(answers* found) {
-  bihive_rays rays = {kRays, origins, directions, NULL, NULL, NULL, NULL};
+  bihive_rays rays = {kRays, origins, directions, NULL, NULL, NULL, NULL, NULL};
   bihive_lists* lists = NULL;
   memset(found, 0, sizeof *found);
   if (bihive_tree_size(tree) != kSpheres) return 1;

@@ -46,6 +46,13 @@ class Trace(ProgramTest):
     def test_from_inside_the_far_side_is_hit(self):
         self.assertEqual(self.trace([[0, 0, 0, 1, 0, 0]]), ([1], [0]))
 
+    def test_far_from_0_rays_of_float64_keep_their_digits(self):
+        self.write("far.csv", "x,y,z,r\n500000.03,5400000.01,100,0.05\n500000.23,5400000.01,100,0.05\n")
+        rays = [[500000.03, 5400000.01, 90, 0, 0, 1], [500000.23, 5400000.01, 90, 0, 0, 1], [500000.13, 5400000.01, 90, 0, 0, 1]]
+        t, ids = self.trace(rays, given="far.csv", dtype=numpy.float64)
+        self.assertEqual(ids, [0, 1, -1])
+        self.assertAlmostEqual(t[0], 9.95, places=6)
+
     def test_any(self):
         rays = [[0, 0, 100, 0, 0, -1], [0, 5, 100, 0, 0, -1]]
         self.assertEqual(self.trace(rays, "--any"), ([0, INF], [0, -1]))

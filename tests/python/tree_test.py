@@ -27,6 +27,38 @@ def rays(count):
     return RNG.normal(size=(count, 3)).astype(np.float32) * 3, RNG.normal(size=(count, 3)).astype(np.float32)
 
 
+class FarFromZero(unittest.TestCase):
+    """Places on a map: answers are those of the same numbers minus the origin."""
+
+    def setUp(self):
+        k = np.arange(300)
+        self.at = np.array([500000, 5400000, 100.0])
+        self.xyz = np.c_[np.cos(0.2 * k), np.sin(0.2 * k), 0.02 * k] + self.at
+        self.spheres = bh.Spheres(self.xyz, radius=0.1)
+
+    def test_places_keep_their_digits(self):
+        self.assertEqual(self.spheres.xyz.dtype, np.float64)
+        np.testing.assert_allclose(self.spheres.xyz, self.xyz, rtol=0, atol=1.2e-7)
+        self.assertEqual(int(bh.select(self.spheres, "y > 5400000.5").sum()), int((self.xyz[:, 1] > 5400000.5).sum()))
+
+    def test_rays_and_points(self):
+        near = bh.Spheres(self.xyz - self.at, radius=0.1)
+        offset = np.c_[np.full(500, 5.0), np.linspace(-1.2, 1.2, 500), np.linspace(0, 6, 500)]
+        t, ids = bh.Tree(self.spheres).closest(offset + self.at, [-1, 0, 0])
+        expected_t, expected = bh.Tree(near).closest(offset, [-1, 0, 0])
+        self.assertGreater(int((ids >= 0).sum()), 100)
+        self.assertGreater(float((ids == expected).mean()), 0.99)
+        hit = (ids >= 0) & (ids == expected)
+        np.testing.assert_allclose(t[hit], expected_t[hit], atol=1e-4)
+        distance, nearest = bh.Tree(self.spheres).nearest(self.xyz, to="centre")
+        self.assertEqual(nearest.tolist(), list(range(300)))
+        self.assertLess(distance.max(), 1e-6)
+
+    def test_a_set_too_wide_for_its_radii_warns(self):
+        with self.assertWarnsRegex(bh.InputWarning, "moves 1 of 2 centres by more than 1 % of the radius"):
+            bh.Spheres([[-1e6, 0, 0], [1e6 + 0.03, 0, 0]], radius=1e-3)
+
+
 class Queries(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -136,14 +136,16 @@ TEST(ReadSpheres, RefusesRadiiThatAreNone) {
   EXPECT_EQ(error_of("1 2 3 1e30\n", "a", options).substr(0, 3), "a: ");
 }
 
-TEST(ReadSpheres, RecentersInDoubleAndOffersIt) {
-  // Spheres of radius 0.01 around 1e6: single precision moves them by up to 0.03.
+TEST(ReadSpheres, RecentersInDouble) {
+  // Spheres of radius 0.01 around 1e6: single precision about 0 moves them by up to 0.03.
   const std::string text = "1000000.01 0 0 0.01\n1000000.02 0 0 0.01\n1000000.03 0 0 0.01\n1 0 0 1000\n";
   const std::string far = text.substr(0, text.rfind("1 0 0"));
   const SphereFile as_is = read_text(far, "a");
-  ASSERT_EQ(as_is.warnings.size(), 1u);
-  EXPECT_NE(as_is.warnings[0].find("moves 3 of 3 centres by more than 1 % of the radius"), std::string::npos);
-  EXPECT_NE(as_is.warnings[0].find("recenter"), std::string::npos);
+  EXPECT_TRUE(as_is.warnings.empty());
+  EXPECT_EQ(as_is.spheres.origin(), (Vec3d{1000000.015625, 0, 0}));
+  EXPECT_EQ(as_is.rules.back(),
+            "coordinates: rounded relative to (1000000.015625, 0, 0), where single precision is finer");
+  EXPECT_NEAR(as_is.spheres.centre(2).x, 1000000.03, 1e-9);
   EXPECT_EQ(as_is.recentred_by, (Vec3d{}));
 
   ReadOptions options;
@@ -154,10 +156,11 @@ TEST(ReadSpheres, RecentersInDoubleAndOffersIt) {
   EXPECT_NEAR(recentred.spheres.centre(0).x, -0.01, 1e-9);
   EXPECT_NEAR(recentred.spheres.centre(2).x, 0.01, 1e-9);
 
-  // If the extent itself is too large, the message does not suggest the same option again.
+  // If the extent itself is too large, nothing helps.
   const SphereFile wide = read_text("-1000000.01 0 0 1e-3\n1000000.02 0 0 1e-3\n5 0 0 1e-3\n", "a", options);
   ASSERT_EQ(wide.warnings.size(), 1u);
-  EXPECT_EQ(wide.warnings[0].find("recenter"), std::string::npos);
+  EXPECT_NE(wide.warnings[0].find("moves 2 of 3 centres by more than 1 % of the radius"), std::string::npos);
+  EXPECT_NE(wide.warnings[0].find("the radii are too small for the extent"), std::string::npos);
 }
 
 TEST(ReadSpheres, KeepsQuietWhereRoundingDoesNoHarm) {

@@ -34,10 +34,11 @@ std::vector<double> spiral(int count, int columns) {
 class ReadChunkTest : public ::testing::Test {
  protected:
   ~ReadChunkTest() override { std::remove(path_.c_str()); }
-  std::string write_spiral(int count, int columns) {
-    EXPECT_TRUE(test::write_npy(path_, "<f8", spiral(count, columns), static_cast<std::size_t>(columns)));
+  std::string write_rows(const std::vector<double>& numbers, int columns) {
+    EXPECT_TRUE(test::write_npy(path_, "<f8", numbers, static_cast<std::size_t>(columns)));
     return path_;
   }
+  std::string write_spiral(int count, int columns) { return write_rows(spiral(count, columns), columns); }
 
  private:
   std::string path_ = ::testing::TempDir() + "read_chunk_test_" + std::to_string(getpid()) + ".npy";
@@ -79,6 +80,30 @@ TEST_F(ReadChunkTest, ChunksTogetherAreTheWholeSet) {
         EXPECT_EQ(r, expected.spheres.r());
       }
     }
+}
+
+// Far from 0 the chunks have the origin of the whole set, which may lie in none of them.
+TEST_F(ReadChunkTest, ChunksHaveTheOriginOfTheWholeSet) {
+  std::vector<double> rows = spiral(50, 4);
+  for (std::size_t i = 0; i < rows.size(); i += 4) rows[i + 1] += 5400000;
+  const std::string path = write_rows(rows, 4);
+  const SphereFile expected = read_spheres(path, {}).value();
+  ASSERT_TRUE(expected.spheres.has_origin());
+  for (const int count : {1, 3, 60}) {
+    std::vector<ReadChunk> chunks(static_cast<std::size_t>(count));
+    on_ranks_in_process(count, [&](Communicator& ranks) {
+      chunks[static_cast<std::size_t>(ranks.rank())] = read_chunk(path, {}, ranks).value();
+    });
+    std::vector<float> y;
+    for (const ReadChunk& chunk : chunks) {
+      const SphereSet& spheres = chunk.file.spheres;
+      y.insert(y.end(), spheres.y().begin(), spheres.y().end());
+      EXPECT_EQ(spheres.origin(), expected.spheres.origin());
+      EXPECT_EQ(spheres.scale_exponent(), expected.spheres.scale_exponent());
+      EXPECT_EQ(chunk.whole_bounds.lo, expected.spheres.bounds().lo);
+    }
+    EXPECT_EQ(y, expected.spheres.y());
+  }
 }
 
 // A rank may ask its set alone, at any time.

@@ -213,7 +213,7 @@ TEST(SceneFile, RecentringFromOutsideMovesEverythingAlong) {
 TEST(SceneFile, CoarseRoundingIsWarnedOf) {
   const Result<LoadedScene> loaded = parse(with_spheres("[[0, 0, 0, 0.001], [1234567.1, 0, 0, 0.001]]"));
   ASSERT_EQ(loaded->warnings.size(), 1u);
-  EXPECT_THAT(loaded->warnings[0], HasSubstr("recenter"));
+  EXPECT_THAT(loaded->warnings[0], HasSubstr("the radii are too small for the extent"));
 }
 
 TEST_F(SceneFileWithMolecule, TheDocumentsOwnRecentringLeavesItsCamera) {

@@ -92,6 +92,7 @@ void print_json(const Facts& facts) {
   json["zero_radii"] = facts.zero_radii;
   json["vanishing_radii"] = facts.spheres.vanishing_radii();
   json["scale_exponent"] = facts.spheres.scale_exponent();
+  json["origin"] = vector(facts.spheres.origin());
   json["attributes"] = ordered_json::array();
   for (const Range& attribute : facts.attributes)
     json["attributes"].push_back({{"name", attribute.name},

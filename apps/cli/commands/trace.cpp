@@ -42,8 +42,10 @@ class RayFile {
     Result<NpyArray> array = parse_npy(read_input(path), name);
     array_ = value_or_fail(std::move(array));
     const std::string& dtype = array_.dtype;
-    if (dtype.size() < 2 || dtype.substr(dtype.size() - 2) != "f4")
-      fail({"expected rays of dtype float32, found " + dtype, name, 0, 0, "convert them: rays.astype(numpy.float32)"});
+    const std::string kind = dtype.size() < 2 ? "" : dtype.substr(dtype.size() - 2);
+    if (kind != "f4" && kind != "f8")
+      fail({"expected rays of dtype float32 or float64, found " + dtype, name, 0, 0,
+            "convert them: rays.astype(numpy.float32)"});
     if (array_.shape.size() != 2 || (array_.shape[1] != 6 && array_.shape[1] != 8)) {
       std::string shape;
       for (const std::int64_t side : array_.shape) shape += (shape.empty() ? "" : ", ") + std::to_string(side);
@@ -54,11 +56,12 @@ class RayFile {
 
   std::int64_t size() const { return array_.shape[0]; }
 
-  Ray ray(std::int64_t i) const {
+  /// Relative to this origin.
+  Ray ray(std::int64_t i, Vec3d origin) const {
     const std::int64_t columns = array_.shape[1];
     const double* row = array_.values.data() + i * columns;
     Ray ray;
-    ray.origin = to_float({row[0], row[1], row[2]});
+    ray.origin = to_float(Vec3d{row[0], row[1], row[2]} - origin);
     ray.direction = to_float({row[3], row[4], row[5]});
     if (columns == 8) {
       ray.t_min = row[6];
@@ -82,7 +85,7 @@ struct Answers {
 std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const RayFile& file, std::int64_t first,
                     std::int64_t count, const HitSpan& hits) {
   RayBatch rays;
-  for (std::int64_t i = 0; i < count; ++i) rays.push_back(file.ray(first + i));
+  for (std::int64_t i = 0; i < count; ++i) rays.push_back(file.ray(first + i, tracer.spheres().origin()));
   if (any) {
     std::vector<std::uint8_t> hidden(static_cast<std::size_t>(count));
     tracer.occluded(rays.span(), RayOrder::any, hidden.data());
@@ -163,7 +166,8 @@ void run_trace(const TraceOptions& options) {
   value_or_fail(check_tree_memory(input.scene.spheres, options.engine, options.tree));
   const Tracer tracer =
       value_or_fail(Tracer::build(input.scene, options.engine, options.tree, static_cast<int>(options.threads)));
-  const Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
+  Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
+  plane.point = input.scene.spheres.to_local(plane.point);
 
   renew_group_limit_for_threads(options.threads);
   const Timer timer;

@@ -39,7 +39,9 @@ Camera camera_around(const Input& input, const Camera& camera, const RenderOptio
     radius = std::max(radius, length(spheres.centre(id) - middle) + spheres.radius(spheres.stored_id(id)));
   for (const Vec3d corner : corners) radius = std::max(radius, length(corner - middle));
   const auto one = [](double value) { return std::vector<double>{value}; };
-  const SphereSet ball = value_or_fail(SphereSet::from_world(one(middle.x), one(middle.y), one(middle.z), one(radius)));
+  const Vec3d local = spheres.to_local(middle);
+  const SphereSet ball =
+      value_or_fail(SphereSet::from_local(one(local.x), one(local.y), one(local.z), one(radius), spheres.origin()));
 
   // The camera that shows the ball, in the direction of the other one.
   const Vec3d offset = camera.eye - camera.look_at;

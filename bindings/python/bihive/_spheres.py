@@ -26,6 +26,12 @@ _TYPES = (-(2**31), 2**31 - 1)
 _READING = [*_bihive.reading_settings(), "count", "seed"]
 
 
+def _warn_of(core: _bihive.Spheres) -> None:
+    """Tells of the reader's doubts, at the line that called the library's function."""
+    for warning in core.warnings:
+        warnings.warn(warning, InputWarning, stacklevel=3)
+
+
 def _bytes_on_screen(colours: Array) -> Array:
     """Linear light of colours as a screen shows them, given as bytes."""
     table = np.array([_colour_of_text(f"#{byte:02x}0000")[0] for byte in range(256)], dtype=np.float32)
@@ -182,6 +188,7 @@ class Spheres:
             "array",
             text_of("name", name),
         )
+        _warn_of(self._core)
 
     @classmethod
     def _of(cls, core: _bihive.Spheres) -> Spheres:
@@ -435,8 +442,7 @@ def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     """
     text = check_readable(path)
     core = _bihive.read([*words_of(options, _READING), "--", os.fsencode(text)])
-    for warning in core.warnings:
-        warnings.warn(warning, InputWarning, stacklevel=2)
+    _warn_of(core)
     return Spheres._of(core)
 
 

@@ -121,8 +121,8 @@ class Tree:
         """The nearest hit of each ray: t, float64 (n,), inf for none; and the sphere's position, int64 (n,), -1 for none.
 
         origins, directions: shape (n, 3), or (3,) for one that all rays share. Directions may have any length above 0, and t
-            counts in lengths of them: the hit is at origin + t direction. Rays are kept in float32: float64 is rounded once. A
-            ray with NaN, an infinity (or beyond 3.4e38), or a direction of 0 hits nothing.
+            counts in lengths of them: the hit is at origin + t direction. Rays are kept in float32: float64 is rounded once,
+            relative to the spheres if these are far from 0. A ray with NaN, an infinity (or beyond 3.4e38), or a direction of 0 hits nothing.
         t_min, t_max: the part of the ray that counts, both ends with it: one number, or shape (n,); 0 and inf.
         leaves: the sphere on which a ray starts, int64, one or (n,); -1: none. It is not met again, or with inside=True (one,
             or bool (n,)) at its far side alone.

@@ -14,6 +14,7 @@
 #include "bihive/base/timer.h"
 #include "bihive/base/write_file.h"
 #include "bihive/bih/reference_builder.h"
+#include "bihive/geometry/rounding_loss.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/elements.h"
@@ -86,7 +87,10 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
   const NumbersView x = column_of(xyz, 0), y = column_of(xyz, 1), z = column_of(xyz, 2), r = view_of(radius);
   {
     const py::gil_scoped_release unlocked;
-    made->file.spheres = value_of(SphereSet::from_world(x, y, z, r));
+    made->file.spheres = value_of(SphereSet::from_world(x, y, z, r, SphereSet::Origin::fitting));
+    const SphereSet& set = made->file.spheres;
+    std::string warning = rounding_warning(rounding_loss(set, x, y, z, r), set.size());
+    if (!warning.empty()) made->file.warnings.push_back(std::move(warning));
   }
   SphereAttributes& attributes = made->file.spheres.attributes();
   if (element) attributes.element = vector_from<std::uint8_t>(*element);

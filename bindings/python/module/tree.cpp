@@ -44,23 +44,24 @@ struct RayArrays {
   const std::uint8_t* inside = nullptr;
 };
 
+// The numbers minus `origin`, in binary64.
 template <class From, class To>
-void copy_as(const NumbersView& view, std::int64_t first, std::int64_t count, To* to) {
+void copy_as(const NumbersView& view, std::int64_t first, std::int64_t count, double origin, To* to) {
   const char* from = static_cast<const char*>(view.first) + first * view.step_bytes;
   for (std::int64_t i = 0; i < count; ++i, from += view.step_bytes) {
     From value;
     std::memcpy(&value, from, sizeof(value));
-    to[i] = static_cast<To>(value);
+    to[i] = static_cast<To>(static_cast<double>(value) - origin);
   }
 }
 
 // Rounded to nearest where the numbers are wider. A number beyond binary32's range becomes infinite.
 template <class To>
-void copy_part(const NumbersView& view, std::int64_t first, std::int64_t count, To* to) {
+void copy_part(const NumbersView& view, std::int64_t first, std::int64_t count, double origin, To* to) {
   if (view.precision == NumbersView::Precision::binary32)
-    copy_as<float>(view, first, count, to);
+    copy_as<float>(view, first, count, origin, to);
   else
-    copy_as<double>(view, first, count, to);
+    copy_as<double>(view, first, count, origin, to);
 }
 
 // The numbers in place, if they are laid out as a vector of T; else null.
@@ -76,19 +77,21 @@ const T* as_vector(const NumbersView& view, std::int64_t first) {
 // The rays of a piece as the engine reads them. Its memory is reused for the next piece.
 class RayPiece {
  public:
-  RaySpan take(const RayArrays& rays, std::int64_t first, std::int64_t count) {
+  /// Local rays (geometry/sphere_set.h).
+  RaySpan take(const RayArrays& rays, Vec3d origin, std::int64_t first, std::int64_t count) {
     const auto size = static_cast<std::size_t>(count);
     RaySpan span;
     span.count = count;
-    const auto take_column = [&](const NumbersView& view, auto& kept) {
+    const auto take_column = [&](const NumbersView& view, auto& kept, double from = 0) {
       using T = typename std::decay_t<decltype(kept)>::value_type;
-      if (const T* const there = as_vector<T>(view, first)) return there;
+      const T* const there = as_vector<T>(view, first);
+      if (there != nullptr && from == 0) return there;
       kept.resize(size);
-      copy_part(view, first, count, kept.data());
+      copy_part(view, first, count, from, kept.data());
       return static_cast<const T*>(kept.data());
     };
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      span.origin[axis] = take_column(rays.origin[axis], batch_.origin[axis]);
+      span.origin[axis] = take_column(rays.origin[axis], batch_.origin[axis], origin[static_cast<int>(axis)]);
       span.direction[axis] = take_column(rays.direction[axis], batch_.direction[axis]);
     }
     if (rays.t_min) span.t_min = take_column(*rays.t_min, batch_.t_min);
@@ -128,7 +131,9 @@ void trace_in_pieces(const RayTree& tree, const RayArrays& rays, RayOrder order,
       if (watch.cancelled() || no_memory) return;
       const std::int64_t first = piece * most;
       try {
-        trace(piece_of_thread().take(rays, first, std::min(most, rays.count - first)), first, piece);
+        trace(piece_of_thread().take(rays, tree.spheres->file.spheres.origin(), first,
+                                     std::min(most, rays.count - first)),
+              first, piece);
       } catch (const std::bad_alloc&) {
         no_memory = true;
       }

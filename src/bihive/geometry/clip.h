@@ -34,6 +34,15 @@ inline bool operator==(const SphereClip& a, const SphereClip& b) {
   return a.centre == b.centre && a.radius == b.radius;
 }
 
+/// The clip, translated.
+inline Clip moved(const Clip& clip, Vec3d by) {
+  if (const auto* plane = std::get_if<PlaneClip>(&clip))
+    return PlaneClip{plane->normal, plane->offset + dot(plane->normal, by)};
+  if (const auto* box = std::get_if<BoxClip>(&clip)) return BoxClip{box->lo + by, box->hi + by};
+  const auto& sphere = std::get<SphereClip>(clip);
+  return SphereClip{sphere.centre + by, sphere.radius};
+}
+
 /// The maximum number of different clips of a scene: each sphere has a bit for each clip (SphereAttributes::clips).
 constexpr int kMostClips = 64;
 

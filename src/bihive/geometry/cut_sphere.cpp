@@ -52,7 +52,7 @@ CutSet::CutSet(const SphereSet& spheres, const std::vector<Clip>& clips,
     : spheres_(&spheres), clips_of_sphere_(&clips_of_sphere) {
   clips_.reserve(clips.size());
   for (const Clip& clip : clips) {
-    clips_.emplace_back(clip, spheres.scale());
+    clips_.emplace_back(clip, spheres);
     has_round_clips_ = has_round_clips_ || clips_.back().is_round();
   }
   all_clips_ = clips.size() < kMostClips ? (std::uint64_t{1} << clips.size()) - 1 : ~std::uint64_t{0};

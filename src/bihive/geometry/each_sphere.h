@@ -15,7 +15,8 @@ void for_each_sphere(const SphereSet& spheres, const Use& use) {
     const Vec3d shift = spheres.scale() * spheres.images().shift(copy);
     for (std::int64_t id = 0; id < spheres.size(); ++id) {
       const Vec3f stored = to_float(spheres.stored_centre(id) + shift);
-      use(copy * spheres.size() + id, spheres.inverse_scale() * to_double(stored), spheres.radius(id));
+      use(copy * spheres.size() + id, spheres.in_world(spheres.inverse_scale() * to_double(stored)),
+          spheres.radius(id));
     }
   }
 }

@@ -16,9 +16,10 @@ constexpr std::int64_t kPlane = -2;
 /// Points origin + t direction with t_min <= t <= t_max, both inclusive.
 ///
 /// `direction` may have any finite length above 0; t counts in lengths of it. Units are the sphere set's own (world)
-/// units. `leaves` names the surface on which the ray starts: kNothing, kPlane or a sphere's id. Spheres are convex. So
-/// a ray that leaves sphere k outward (`inside` false) never meets k again, and a ray that goes into it (`inside` true)
-/// meets it at the far root alone. This rule replaces every epsilon: there is no offset and nothing to tune.
+/// units, and the origin counts from SphereSet::origin(), which is 0 for most sets. `leaves` names the surface on which
+/// the ray starts: kNothing, kPlane or a sphere's id. Spheres are convex. So a ray that leaves sphere k outward
+/// (`inside` false) never meets k again, and a ray that goes into it (`inside` true) meets it at the far root alone.
+/// This rule replaces every epsilon: there is no offset and nothing to tune.
 struct Ray {
   Vec3f origin;
   Vec3f direction;

@@ -55,31 +55,88 @@ class TypedView {
 
 }  // namespace
 
-// Checks every number, and finds the farthest bound from 0.
-template <class Coordinates, class Radii>
-Result<double> SphereSet::extent(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                                 std::int64_t first_id) {
-  const auto first = static_cast<std::size_t>(first_id);
-  constexpr double kLargest = std::numeric_limits<float>::max();
+double WorldEnds::extent(Vec3d from) const {
   double extent = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double values[4] = {double(x[i]), double(y[i]), double(z[i]), double(r[i])};
-    const char* const names[4] = {"x", "y", "z", "the radius"};
-    for (int k = 0; k < 4; ++k) {
-      if (!std::isfinite(values[k]))
-        return bad_sphere(first + i, std::string(names[k]) + " must be finite but", values[k]);
-      if (!(std::abs(values[k]) <= kLargest))
-        return bad_sphere(first + i, std::string(names[k]) + " must fit single precision (3.4e38) but", values[k]);
-      if (k < 3) extent = std::max(extent, std::abs(values[k]) + values[3]);
-    }
-    if (values[3] < 0) return bad_sphere(first + i, "the radius must not be negative but", values[3]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double at = from[static_cast<int>(k)];
+    extent = std::max({extent, below[k] + at, above[k] - at});
   }
   return extent;
 }
 
+Vec3d WorldEnds::origin() const {
+  double half = 0;
+  Vec3d middle;
+  for (std::size_t k = 0; k < 3; ++k) {
+    middle[static_cast<int>(k)] = 0.5 * above[k] - 0.5 * below[k];
+    half = std::max(half, 0.5 * above[k] + 0.5 * below[k]);
+  }
+  if (!(half > 0)) return {};
+  const double unit = std::ldexp(1.0, std::ilogb(half));
+  const Vec3d origin{std::nearbyint(middle.x / unit) * unit, std::nearbyint(middle.y / unit) * unit,
+                     std::nearbyint(middle.z / unit) * unit};
+  return is_finite(origin) && extent(origin) <= 0.5 * extent() ? origin : Vec3d{};
+}
+
+// Checks every number, and finds the ends.
 template <class Coordinates, class Radii>
-Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                                  std::int64_t first_id, double extent_of_others) {
+Result<WorldEnds> SphereSet::ends_of(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                     std::int64_t first_id) {
+  const auto first = static_cast<std::size_t>(first_id);
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  WorldEnds ends;
+  ends.below = ends.above = {-kInfinite, -kInfinite, -kInfinite};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double values[4] = {double(x[i]), double(y[i]), double(z[i]), double(r[i])};
+    const char* const names[4] = {"x", "y", "z", "the radius"};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!std::isfinite(values[k]))
+        return bad_sphere(first + i, std::string(names[k]) + " must be finite but", values[k]);
+      if (!(std::abs(values[k]) <= kLargest))
+        return bad_sphere(first + i, std::string(names[k]) + " must fit single precision (3.4e38) but", values[k]);
+      if (k == 3) continue;
+      ends.below[k] = std::max(ends.below[k], values[3] - values[k]);
+      ends.above[k] = std::max(ends.above[k], values[3] + values[k]);
+    }
+    if (values[3] < 0) return bad_sphere(first + i, "the radius must not be negative but", values[3]);
+  }
+  return ends;
+}
+
+namespace {
+
+// The exponent that brings the farthest bound into [1/2, 1].
+int scale_exponent_for(double extent) {
+  int exponent = 0;
+  if (extent > 0) std::frexp(extent, &exponent);
+  return std::min(-exponent, kLargestScaleExponent);
+}
+
+}  // namespace
+
+template <class Coordinates, class Radii>
+bool SphereSet::is_coarse(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                          double extent) {
+  const double scale = std::ldexp(1.0, scale_exponent_for(extent));
+  const auto rounding = [scale](double world) {
+    const double stored = world * scale;
+    return double(static_cast<float>(stored)) - stored;
+  };
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!(double(r[i]) > 0)) continue;
+    const Vec3d moved{rounding(double(x[i])), rounding(double(y[i])), rounding(double(z[i]))};
+    const double harmless = kHarmlessShift * double(r[i]) * scale;
+    if (dot(moved, moved) > harmless * harmless) return true;
+  }
+  return false;
+}
+
+// Rounds once, to binary32 in stored units. A bound about an origin is a rounded difference, so its extent may be a bit
+// too small.
+template <class Coordinates, class Radii>
+Result<SphereSet> SphereSet::make_about(const Coordinates& x, const Coordinates& y, const Coordinates& z,
+                                        const Radii& r, const WorldEnds& ends, Vec3d origin) {
   BIHIVE_CHECK_EQ(x.size(), y.size());
   BIHIVE_CHECK_EQ(x.size(), z.size());
   BIHIVE_CHECK_EQ(x.size(), r.size());
@@ -92,30 +149,25 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
         !status)
       return status.error();
 
-  const Result<double> own = extent(x, y, z, r, first_id);
-  if (!own) return own.error();
-
-  // Choose the power of two that brings the farthest bound into [1/2, 1], and round once.
-  const double farthest = std::max(*own, extent_of_others);
   SphereSet set;
-  if (farthest > 0) std::frexp(farthest, &set.scale_exponent_);
-  set.scale_exponent_ = std::min(-set.scale_exponent_, kLargestScaleExponent);
+  set.origin_ = origin;
+  set.scale_exponent_ = scale_exponent_for(set.has_origin() ? ends.extent(origin) * (1 + 0x1p-50) : ends.extent());
   const double scale = set.scale();
   bool as_before = true;
-  const auto round = [scale, &as_before](const auto& world) {
+  const auto round = [scale, &as_before](const auto& world, double from) {
     std::vector<float> stored(world.size());
     bool small = true;
     for (std::size_t i = 0; i < world.size(); ++i) {
-      stored[i] = static_cast<float>(double(world[i]) * scale);
+      stored[i] = static_cast<float>((double(world[i]) - from) * scale);
       small &= std::abs(stored[i]) <= 1;
     }
     as_before &= small;
     return stored;
   };
-  set.x_ = round(x);
-  set.y_ = round(y);
-  set.z_ = round(z);
-  set.r_ = round(r);
+  set.x_ = round(x, origin.x);
+  set.y_ = round(y, origin.y);
+  set.z_ = round(z, origin.z);
+  set.r_ = round(r, 0);
   for (const float radius : set.r_) as_before &= radius >= 0;
   if (!as_before)
     return Error{"the numbers of the spheres change while they are read", "", 0, 0, "another thread writes"};
@@ -124,21 +176,43 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
   return set;
 }
 
+template <class Coordinates, class Radii>
+Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                  Origin origin) {
+  const Result<WorldEnds> ends = ends_of(x, y, z, r, 0);
+  if (!ends) return ends.error();
+  const bool coarse = origin == Origin::fitting && is_coarse(x, y, z, r, ends->extent());
+  return make_about(x, y, z, r, *ends, coarse ? ends->origin() : Vec3d{});
+}
+
 Result<SphereSet> SphereSet::from_world(const std::vector<double>& x, const std::vector<double>& y,
                                         const std::vector<double>& z, const std::vector<double>& r) {
   return make(x, y, z, r);
 }
 
-Result<SphereSet> SphereSet::chunk_from_world(const std::vector<double>& x, const std::vector<double>& y,
-                                              const std::vector<double>& z, const std::vector<double>& r,
-                                              std::int64_t first_id, double extent) {
-  return make(x, y, z, r, first_id, extent);
+Result<SphereSet> SphereSet::from_local(const std::vector<double>& x, const std::vector<double>& y,
+                                        const std::vector<double>& z, const std::vector<double>& r, Vec3d origin) {
+  Result<SphereSet> set = make(x, y, z, r);
+  if (set) set->origin_ = origin;
+  return set;
 }
 
-Result<double> SphereSet::extent_of_world(const std::vector<double>& x, const std::vector<double>& y,
-                                          const std::vector<double>& z, const std::vector<double>& r,
-                                          std::int64_t first_id) {
-  return extent(x, y, z, r, first_id);
+Result<SphereSet> SphereSet::chunk_from_world(const std::vector<double>& x, const std::vector<double>& y,
+                                              const std::vector<double>& z, const std::vector<double>& r,
+                                              std::int64_t first_id, const WorldEnds& ends, Vec3d origin) {
+  if (const Result<WorldEnds> own = ends_of(x, y, z, r, first_id); !own) return own.error();
+  return make_about(x, y, z, r, ends, origin);
+}
+
+Result<WorldEnds> SphereSet::ends_of_world(const std::vector<double>& x, const std::vector<double>& y,
+                                           const std::vector<double>& z, const std::vector<double>& r,
+                                           std::int64_t first_id) {
+  return ends_of(x, y, z, r, first_id);
+}
+
+bool SphereSet::is_coarse_about_zero(const std::vector<double>& x, const std::vector<double>& y,
+                                     const std::vector<double>& z, const std::vector<double>& r, double extent) {
+  return is_coarse(x, y, z, r, extent);
 }
 
 Result<SphereSet> SphereSet::from_world(const std::vector<float>& x, const std::vector<float>& y,
@@ -147,24 +221,25 @@ Result<SphereSet> SphereSet::from_world(const std::vector<float>& x, const std::
 }
 
 Result<SphereSet> SphereSet::from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
-                                        const NumbersView& r) {
+                                        const NumbersView& r, Origin origin) {
   using Precision = NumbersView::Precision;
   BIHIVE_CHECK(x.precision == y.precision && x.precision == z.precision);
   const auto with_radii = [&](const auto& one, const auto& two, const auto& three) {
-    if (r.precision == Precision::binary32) return make(one, two, three, TypedView<float>(r));
-    return make(one, two, three, TypedView<double>(r));
+    if (r.precision == Precision::binary32) return make(one, two, three, TypedView<float>(r), origin);
+    return make(one, two, three, TypedView<double>(r), origin);
   };
   if (x.precision == Precision::binary32)
     return with_radii(TypedView<float>(x), TypedView<float>(y), TypedView<float>(z));
   return with_radii(TypedView<double>(x), TypedView<double>(y), TypedView<double>(z));
 }
 
-SphereSet SphereSet::from_stored(StoredSpheres spheres, int scale_exponent) {
+SphereSet SphereSet::from_stored(StoredSpheres spheres, int scale_exponent, Vec3d origin) {
   BIHIVE_CHECK_EQ(spheres.x.size(), spheres.y.size());
   BIHIVE_CHECK_EQ(spheres.x.size(), spheres.z.size());
   BIHIVE_CHECK_EQ(spheres.x.size(), spheres.r.size());
   SphereSet set;
   set.scale_exponent_ = scale_exponent;
+  set.origin_ = origin;
   set.x_ = std::move(spheres.x);
   set.y_ = std::move(spheres.y);
   set.z_ = std::move(spheres.z);
@@ -212,12 +287,13 @@ SphereSet::Bounds SphereSet::bounds() const {
       box.hi[axis] = std::max(box.hi[axis], hi + radius);
     }
   }
-  return {box.lo * inverse_scale(), box.hi * inverse_scale()};
+  return {in_world(box.lo * inverse_scale()), in_world(box.hi * inverse_scale())};
 }
 
 SphereSet SphereSet::part(const std::vector<std::int64_t>& ids) const {
   SphereSet made;
   made.scale_exponent_ = scale_exponent_;
+  made.origin_ = origin_;
   made.cell_ = cell_;
   made.images_ = images_;
   const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
@@ -262,7 +338,7 @@ Status SphereSet::replicate(const std::array<Vec3d, 3>& vectors, const std::arra
   const Images::Shifts shifts = images.shifts();
   double extent = 0;
   for (std::int64_t id = 0; id < size(); ++id) {
-    const Vec3d c = centre(id);
+    const Vec3d c = local_centre(id);
     for (int axis = 0; axis < 3; ++axis)
       for (const double by : {shifts.lo[axis], shifts.hi[axis]}) {
         if (!(std::abs(c[axis] + by) <= kLargest))
@@ -273,9 +349,7 @@ Status SphereSet::replicate(const std::array<Vec3d, 3>& vectors, const std::arra
 
   // Bring it into [1/2, 1] by another power of two, which is exact but for the smallest numbers of binary32. Like
   // any sum with a shift, that with 0 makes -0 to 0.
-  int exponent = 0;
-  if (extent > 0) std::frexp(extent, &exponent);
-  exponent = std::min(-exponent, kLargestScaleExponent);
+  const int exponent = scale_exponent_for(extent);
   const int change = exponent - scale_exponent_;
   for (auto* values : {&x_, &y_, &z_, &r_})
     for (float& value : *values) value = static_cast<float>(std::ldexp(double(value), change) + 0.0);

@@ -5,6 +5,11 @@
 // underflow for worlds measured in 1e-20 as in 1e20. Ids are 0-based positions in the order in which the set was read;
 // counts are 64-bit.
 //
+// Far from 0 binary32 is coarse: at 5,400,000 m its numbers are 0.5 m apart. Such a set has an *origin* in binary64,
+// and stored units are relative to it: stored = (world - origin) times 2^scale_exponent. A position relative to the
+// origin, in units of the world, is called *local*; without an origin that is the world. Rays are local
+// (geometry/ray.h).
+//
 // A set may represent copies of itself (images, geometry/cell.h), of which only the first is stored. The others have
 // ids too: that of sphere `id` in copy k is k * size() + id.
 #pragma once
@@ -33,6 +38,10 @@ struct NumbersView {
   std::ptrdiff_t step_bytes = 0;
   std::size_t count = 0;
   Precision precision = Precision::binary64;
+
+  static NumbersView of(const std::vector<double>& numbers) {
+    return {numbers.data(), static_cast<std::ptrdiff_t>(sizeof(double)), numbers.size(), Precision::binary64};
+  }
 };
 
 /// Spheres as a set stores them: binary32, world units times 2^scale_exponent.
@@ -40,13 +49,31 @@ struct StoredSpheres {
   std::vector<float> x, y, z, r;
 };
 
+/// The ends of spheres along the axes, in world units: the greatest of radius - centre, then the greatest of centre +
+/// radius. Those of a whole set are the maximum of those of its chunks.
+struct WorldEnds {
+  std::array<double, 3> below{}, above{};
+
+  /// The farthest bound from a point along an axis.
+  double extent(Vec3d from = {}) const;
+  /// A point near the middle, with few bits: a multiple of a power of two of about half the extent. So world - origin
+  /// is exact for numbers with as many bits after the point as binary64 has for the farthest of them. 0 if numbers
+  /// about it would not have at least a bit more than about 0.
+  Vec3d origin() const;
+};
+
 class SphereSet {
  public:
   SphereSet() = default;
 
+  /// The origin of a set made from world units: 0, or WorldEnds::origin() if rounding about 0 would move some centre by
+  /// more than kHarmlessShift of its radius.
+  enum class Origin { zero, fitting };
+  static constexpr double kHarmlessShift = 0.01;
+
   /// A set of these spheres in these units, without images: a subset of a larger set, which defines the units. Every
   /// bound must lie in [-1, 1].
-  static SphereSet from_stored(StoredSpheres spheres, int scale_exponent);
+  static SphereSet from_stored(StoredSpheres spheres, int scale_exponent, Vec3d origin);
   /// Appends spheres in the set's own stored units. The set has no images.
   void append_stored(const StoredSpheres& spheres);
   /// The spheres with these ids, in this order, without touching the attributes.
@@ -61,18 +88,25 @@ class SphereSet {
                                       const std::vector<double>& z, const std::vector<double>& r);
   static Result<SphereSet> from_world(const std::vector<float>& x, const std::vector<float>& y,
                                       const std::vector<float>& z, const std::vector<float>& r);
-  /// A chunk of a larger set, in the units of the whole set. `first_id`: of the chunk's first sphere in the whole set,
-  /// for messages. `extent`: the greatest extent_of_world() of all chunks.
+  /// The same from local numbers.
+  static Result<SphereSet> from_local(const std::vector<double>& x, const std::vector<double>& y,
+                                      const std::vector<double>& z, const std::vector<double>& r, Vec3d origin);
+  /// A chunk of a larger set, in the units of the whole set and relative to its origin. `first_id`: of the chunk's
+  /// first sphere in the whole set, for messages. `ends`: those of all chunks.
   static Result<SphereSet> chunk_from_world(const std::vector<double>& x, const std::vector<double>& y,
                                             const std::vector<double>& z, const std::vector<double>& r,
-                                            std::int64_t first_id, double extent);
-  /// The farthest bound of these spheres from 0 along an axis, which decides the units. Errors as from_world().
-  static Result<double> extent_of_world(const std::vector<double>& x, const std::vector<double>& y,
-                                        const std::vector<double>& z, const std::vector<double>& r,
-                                        std::int64_t first_id);
+                                            std::int64_t first_id, const WorldEnds& ends, Vec3d origin);
+  /// Errors as from_world(). Without spheres all ends are -inf.
+  static Result<WorldEnds> ends_of_world(const std::vector<double>& x, const std::vector<double>& y,
+                                         const std::vector<double>& z, const std::vector<double>& r,
+                                         std::int64_t first_id);
+  /// Whether rounding about 0, in the units of a set with this extent, moves some centre by more than kHarmlessShift of
+  /// its radius.
+  static bool is_coarse_about_zero(const std::vector<double>& x, const std::vector<double>& y,
+                                   const std::vector<double>& z, const std::vector<double>& r, double extent);
   /// The same from numbers in place. x, y and z must have the same precision.
   static Result<SphereSet> from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
-                                      const NumbersView& r);
+                                      const NumbersView& r, Origin origin = Origin::zero);
 
   /// The spheres that are stored.
   std::int64_t size() const { return static_cast<std::int64_t>(x_.size()); }
@@ -117,11 +151,16 @@ class SphereSet {
   }
 
   int scale_exponent() const { return scale_exponent_; }
-  /// stored = world * scale(); a power of two, exact in binary64 (2^-129 to 2^149).
+  /// stored = local * scale(); a power of two, exact in binary64 (2^-129 to 2^149).
   double scale() const { return std::ldexp(1.0, scale_exponent_); }
 
   /// World units.
-  Vec3d centre(std::int64_t id) const { return stored_centre(id) * inverse_scale(); }
+  Vec3d centre(std::int64_t id) const { return in_world(local_centre(id)); }
+  Vec3d local_centre(std::int64_t id) const { return stored_centre(id) * inverse_scale(); }
+  Vec3d origin() const { return origin_; }
+  bool has_origin() const { return origin_ != Vec3d{}; }
+  Vec3d to_local(Vec3d world) const { return world - origin_; }
+  Vec3d in_world(Vec3d local) const { return has_origin() ? local + origin_ : local; }  // -0 stays -0
   double radius(std::int64_t id) const { return stored_radius(id) * inverse_scale(); }
   double inverse_scale() const { return std::ldexp(1.0, -scale_exponent_); }
   /// The smallest box around all spheres and images (radius 0 too), in world units as binary64: lo and hi. An empty set
@@ -148,6 +187,7 @@ class SphereSet {
  private:
   std::vector<float> x_, y_, z_, r_;
   int scale_exponent_ = 0;
+  Vec3d origin_;
   std::int64_t vanishing_radii_ = 0;
   SphereAttributes attributes_;
   std::optional<Cell> cell_;
@@ -157,11 +197,17 @@ class SphereSet {
   void count_vanishing_radii();
 
   template <class Coordinates, class Radii>
-  static Result<double> extent(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                               std::int64_t first_id);
+  static Result<WorldEnds> ends_of(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                   std::int64_t first_id);
+  template <class Coordinates, class Radii>
+  static bool is_coarse(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                        double extent);
   template <class Coordinates, class Radii>
   static Result<SphereSet> make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                                std::int64_t first_id = 0, double extent_of_others = 0);
+                                Origin origin = Origin::zero);
+  template <class Coordinates, class Radii>
+  static Result<SphereSet> make_about(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
+                                      const WorldEnds& ends, Vec3d origin);
 };
 
 }  // namespace bihive

@@ -125,10 +125,11 @@ class GlRenderer::Implementation {
       return Error{"the graphics processor draws no edges of a cell", "", 0, 0, "choose an engine of the CPU"};
     if (settings.transparent && settings.view == View::traversal)
       return Error{"this view of the tree has no transparent background", "", 0, 0, "choose another view"};
+    const Camera local = relative_to(camera, scene_.origin());
     const Result<CameraUniforms> at =
-        CameraUniforms::from(camera, scene_.scale(), settings.width_px, settings.height_px);
+        CameraUniforms::from(local, scene_.scale(), settings.width_px, settings.height_px);
     if (!at) return at.error();
-    camera_ = camera;
+    camera_ = local;
     settings_ = settings;
     if (settings_.adaptive_samples) settings_.samples_per_pixel = kFewSamples;
     samples_.set(settings_, scene_.has_soft_light(), scene_.scale());

@@ -76,6 +76,7 @@ Status SceneOnGpu::set(const Scene& scene, const Tree* tree) {
   textures_ = textures;
   uniforms_ = SceneUniforms(scene, tree, *packed);
   scale_ = scene.spheres.scale();
+  origin_ = scene.spheres.origin();
   has_soft_light_ = bihive::has_soft_light(scene);
   lets_light_through_ = bihive::lets_light_through(scene);
   is_passed_straight_ = has_bands_ = false;

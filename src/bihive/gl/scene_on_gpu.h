@@ -33,6 +33,7 @@ class SceneOnGpu {
   bool is_set() const { return textures_[0] != 0; }
   bool has_tree() const { return has_tree_; }
   double scale() const { return scale_; }
+  Vec3d origin() const { return origin_; }
   Vec3f background() const { return uniforms_.background; }
   bool has_bands() const { return has_bands_; }
   int light_count() const { return uniforms_.light_count; }
@@ -71,6 +72,7 @@ class SceneOnGpu {
   std::vector<float> centres_and_radii_;  // in stored units, for depths()
   int stack_size_ = 0;
   double scale_ = 1;
+  Vec3d origin_;
   std::map<std::string, GlProgram> programs_;  // by chunk and defines
 };
 

@@ -29,7 +29,7 @@ SceneUniforms::SceneUniforms(const Scene& scene, const Tree* tree, const SceneTe
   }
   if (!scene.plane) return;
   const double scale = scene.spheres.scale();
-  const Plane& plane = scene.plane->plane;
+  const Plane plane = local_plane(scene);
   has_plane = true;
   plane_normal = to_float(plane.normal);
   plane_offset = length_of(dot(plane.normal, plane.point * scale));

@@ -163,7 +163,7 @@ Status pack_lights(const Scene& scene, std::int64_t most_texels, SceneTextures& 
   reserve(packed.lights, 2 * packed.light_count);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const PointLight& light = scene.lights[i];
-    Vec3d position = light.position * scene.spheres.scale();
+    Vec3d position = scene.spheres.to_local(light.position) * scene.spheres.scale();
     double radius = light.radius * scene.spheres.scale();
     const double farthest = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
     if (farthest > kFarthestLight) {

@@ -22,7 +22,7 @@ struct SceneHit {
 inline SceneHit scene_hit(const Scene& scene, const Hit& sphere, const Ray& ray) {
   SceneHit hit{sphere.t, sphere.sphere_id};
   if (scene.plane && is_valid(ray)) {
-    const double t = plane_hit(ray, scene.plane->plane);
+    const double t = plane_hit(ray, local_plane(scene));
     if (t < hit.t) hit = {t, kPlane};
   }
   return hit;

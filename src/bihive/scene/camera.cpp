@@ -69,6 +69,13 @@ Camera enlarged(const Camera& camera, double factor) {
   return changed;
 }
 
+Camera relative_to(const Camera& camera, Vec3d origin) {
+  Camera local = camera;
+  local.eye = camera.eye - origin;
+  local.look_at = camera.look_at - origin;
+  return local;
+}
+
 double focus_distance(const Camera& camera) {
   return camera.focus > 0 ? camera.focus : length(camera.look_at - camera.eye);
 }

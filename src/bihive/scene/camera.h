@@ -40,6 +40,9 @@ Camera with_projection(const Camera& camera, Projection projection);
 /// stays, so nothing that was in front of it is cut off.
 Camera enlarged(const Camera& camera, double factor);
 
+/// The same camera, given from another origin: rays are local (geometry/sphere_set.h).
+Camera relative_to(const Camera& camera, Vec3d origin);
+
 /// The distance along the view that is sharp.
 double focus_distance(const Camera& camera);
 

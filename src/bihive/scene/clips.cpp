@@ -117,14 +117,6 @@ Status check_clip(const Clip& clip) {
   return std::visit([](const auto& shape) { return check(shape); }, clip);
 }
 
-Clip moved(const Clip& clip, Vec3d by) {
-  if (const auto* plane = std::get_if<PlaneClip>(&clip))
-    return PlaneClip{plane->normal, plane->offset + dot(plane->normal, by)};
-  if (const auto* box = std::get_if<BoxClip>(&clip)) return BoxClip{box->lo + by, box->hi + by};
-  const auto& sphere = std::get<SphereClip>(clip);
-  return SphereClip{sphere.centre + by, sphere.radius};
-}
-
 bool has_clips(const Scene& scene) {
   const std::vector<std::uint64_t>& of_spheres = scene.spheres.attributes().clips;
   return !scene.clips.empty() &&

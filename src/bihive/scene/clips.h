@@ -24,9 +24,6 @@ Result<Clip> clip_from_text(const std::string& text);
 /// order, a radius is not above 0.
 Status check_clip(const Clip& clip);
 
-/// The clip, translated.
-Clip moved(const Clip& clip, Vec3d by);
-
 /// Whether a clip acts on some sphere.
 bool has_clips(const Scene& scene);
 

@@ -186,19 +186,19 @@ class LookedAt {
       colours_.push_back(to_float(material_of(scene_, id).colour));
   }
 
-  // The shown spheres with their new radii. World units in binary64 hold stored centres exactly.
+  // The shown spheres with their new radii. Local centres in binary64 hold stored ones exactly.
   Result<SphereSet> rebuilt(const SphereSet& spheres) const {
     std::vector<double> x, y, z, r;
     for (std::int64_t id = 0; id < spheres.size(); ++id) {
       const auto i = static_cast<std::size_t>(id);
       if (!shown_.empty() && shown_[i] == 0) continue;
-      const Vec3d centre = spheres.centre(id);
+      const Vec3d centre = spheres.local_centre(id);
       x.push_back(centre.x);
       y.push_back(centre.y);
       z.push_back(centre.z);
       r.push_back(spheres.radius(id) * (factors_.empty() ? 1.0 : factors_[i]));
     }
-    Result<SphereSet> made = SphereSet::from_world(x, y, z, r);
+    Result<SphereSet> made = SphereSet::from_local(x, y, z, r, spheres.origin());
     if (made)
       if (Status status = made->keep_cell_of(spheres); !status) return status.error();
     return made;

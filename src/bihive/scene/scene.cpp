@@ -6,6 +6,12 @@
 
 namespace bihive {
 
+std::vector<PointLight> local_lights(const Scene& scene) {
+  std::vector<PointLight> lights = scene.lights;
+  for (PointLight& light : lights) light.position = scene.spheres.to_local(light.position);
+  return lights;
+}
+
 bool has_soft_light(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const PointLight& light) { return light.radius > 0; });

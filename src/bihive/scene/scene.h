@@ -25,7 +25,8 @@ struct PointLight {
 };
 
 /// Squares of `size` world units; the material's colour where floor(u / size) + floor(v / size) is even,
-/// `second_colour` where it is odd, the mean of both beyond `fade_distance` from the world's origin.
+/// `second_colour` where it is odd, the mean of both beyond `fade_distance` from SphereSet::origin(), from which u and
+/// v count: that of the world unless the spheres are far from it.
 struct Checker {
   double size = 5;
   Vec3d second_colour{0.6, 0.6, 0.6};
@@ -67,6 +68,16 @@ inline std::int64_t input_id(const Scene& scene, std::int64_t id) {
   if (id < 0 || scene.id_in_input.empty()) return id;
   const std::int64_t of_stored = scene.id_in_input[static_cast<std::size_t>(scene.spheres.stored_id(id))];
   return of_stored + id / scene.spheres.size() * scene.size_of_input;
+}
+
+/// As rays see them: relative to the origin of the spheres.
+inline Camera local_camera(const Scene& scene) {
+  return relative_to(scene.camera, scene.spheres.origin());
+}
+std::vector<PointLight> local_lights(const Scene& scene);
+/// The scene must have a plane.
+inline Plane local_plane(const Scene& scene) {
+  return {scene.spheres.to_local(scene.plane->plane.point), scene.plane->plane.normal};
 }
 
 /// Whether some light casts soft shadows.

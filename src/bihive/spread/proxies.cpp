@@ -55,7 +55,7 @@ void add_lines(const Scene& scene, std::vector<std::int64_t>& ids) {
 
 // The nearest and the farthest depth of what clips leave, and a sphere that they cut.
 void add_depths_and_cuts(const Scene& scene, const RenderSettings& settings, std::vector<std::int64_t>& ids) {
-  const PixelRays rays(scene.camera, settings.width_px, settings.height_px);
+  const PixelRays rays(local_camera(scene), settings.width_px, settings.height_px);
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   const Vec3d eye = to_double(rays.eye());
   Greatest nearest, farthest, cut, removed;
@@ -63,7 +63,7 @@ void add_depths_and_cuts(const Scene& scene, const RenderSettings& settings, std
     const Remainder left = cuts == nullptr ? Remainder::whole : cuts->remainder(id);
     if (left != Remainder::whole) (left == Remainder::cut ? cut : removed).add(1, id);
     if (left == Remainder::nothing) continue;
-    const double depth = dot(scene.spheres.centre(id) - eye, rays.forward());
+    const double depth = dot(scene.spheres.local_centre(id) - eye, rays.forward());
     nearest.add(-(depth - scene.spheres.radius(id)), id);
     farthest.add(depth + scene.spheres.radius(id), id);
   }

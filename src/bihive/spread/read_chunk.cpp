@@ -82,6 +82,13 @@ RoundingLoss loss_of_whole(const RoundingLoss& own, Communicator& ranks) {
   return whole;
 }
 
+WorldEnds ends_of_whole(const WorldEnds& own, Communicator& ranks) {
+  std::vector<double> greatest(own.below.begin(), own.below.end());
+  greatest.insert(greatest.end(), own.above.begin(), own.above.end());
+  ranks.all_reduce_max(greatest);
+  return {{greatest[0], greatest[1], greatest[2]}, {greatest[3], greatest[4], greatest[5]}};
+}
+
 SphereSet::Bounds bounds_of_whole(const SphereSet& chunk, Communicator& ranks) {
   const SphereSet::Bounds own = chunk.bounds();
   std::vector<double> ends{-own.lo.x, -own.lo.y, -own.lo.z, own.hi.x, own.hi.y, own.hi.z};
@@ -114,10 +121,12 @@ Result<ReadChunk> read_chunk(const std::string& path, const ReadOptions& options
     steps.recenter(ends);
   }
 
-  // Round once, in the units of the whole set.
-  const Result<double> extent = steps.extent();
-  if (!extent) return extent.error();
-  const Result<RoundingLoss> loss = steps.round(ranks.all_reduce_max(*extent));
+  // Round once, in the units of the whole set and relative to its origin.
+  const Result<WorldEnds> own = steps.ends();
+  if (!own) return own.error();
+  const WorldEnds ends = ends_of_whole(*own, ranks);
+  const bool coarse = ranks.all_reduce_max(steps.is_coarse_about_zero(ends.extent()) ? 1 : 0) > 0;
+  const Result<RoundingLoss> loss = steps.round(ends, coarse ? ends.origin() : Vec3d{});
   if (!loss) return loss.error();
   ReadChunk chunk;
   chunk.file = steps.finish(loss_of_whole(*loss, ranks));

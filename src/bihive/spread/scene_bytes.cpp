@@ -145,8 +145,10 @@ void transfer(A& archive, std::vector<T>& values) {
 template <class A>
 void transfer(A& archive, Scene& scene) {
   int exponent = scene.spheres.scale_exponent();
+  Vec3d origin = scene.spheres.origin();
   archive.plain(exponent);
-  if (A::kTakes) scene.spheres = SphereSet::from_stored({}, exponent);
+  archive.plain(origin);
+  if (A::kTakes) scene.spheres = SphereSet::from_stored({}, exponent, origin);
   SphereAttributes& attributes = scene.spheres.attributes();
   all(archive, scene.spheres.cell(), attributes.numbers, attributes.texts, scene.materials, scene.size_of_input,
       scene.coloured_by, scene.length_unit, scene.lights, scene.plane, scene.clips, scene.camera, scene.background,

@@ -104,7 +104,7 @@ void keep_first_spheres(std::int64_t count, const SphereColumns& has, Scene& sce
 
 Scene without_spheres(const Scene& scene) {
   Scene shell;
-  shell.spheres = SphereSet::from_stored({}, scene.spheres.scale_exponent());
+  shell.spheres = SphereSet::from_stored({}, scene.spheres.scale_exponent(), scene.spheres.origin());
   shell.spheres.cell() = scene.spheres.cell();
   for (const NamedNumbers& column : scene.spheres.attributes().numbers)
     shell.spheres.attributes().numbers.push_back({column.name, {}});

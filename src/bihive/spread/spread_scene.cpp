@@ -116,7 +116,7 @@ std::vector<std::int64_t> possible_ghosts(const Scene& scene) {
     bool matters = cuts != nullptr && cuts->is_cut(id);
     for (const Clip& clip : scene.clips)
       if (const auto* ball = std::get_if<SphereClip>(&clip)) {
-        const StoredClip stored(*ball, scene.spheres.scale());
+        const StoredClip stored(*ball, scene.spheres);
         matters = matters || stored.is_ball(scene.spheres.stored_centre(id), scene.spheres.stored_radius(id));
       }
     if (matters) ids.push_back(id);

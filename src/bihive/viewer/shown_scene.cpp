@@ -42,9 +42,10 @@ Camera ShownScene::far_enough(const Camera& camera, bool cell, PictureSizePx siz
 
 bool ShownScene::same_spheres(const ShownScene& other) const {
   const SphereSet &a = scene.spheres, &b = other.scene.spheres;
-  return a.scale_exponent() == b.scale_exponent() && a.x() == b.x() && a.y() == b.y() && a.z() == b.z() &&
-         a.r() == b.r() && a.images().counts == b.images().counts && a.images().vectors == b.images().vectors &&
-         scene.clips == other.scene.clips && a.attributes().clips == b.attributes().clips;
+  return a.scale_exponent() == b.scale_exponent() && a.origin() == b.origin() && a.x() == b.x() && a.y() == b.y() &&
+         a.z() == b.z() && a.r() == b.r() && a.images().counts == b.images().counts &&
+         a.images().vectors == b.images().vectors && scene.clips == other.scene.clips &&
+         a.attributes().clips == b.attributes().clips;
 }
 
 void ShownScene::take_look_of(ShownScene&& other) {

@@ -414,9 +414,10 @@ class Viewer::Implementation {
   Vec3d seen_at(double x_px, double y_px) const {
     const Camera& camera = settings_.camera;
     if (const Tracer* tracer = shown_->trees->any()) {
-      const Ray ray = PixelRays(camera, size_.width, size_.height).at(x_px, y_px);
+      const SphereSet& spheres = tracer->spheres();
+      const Ray ray = PixelRays(relative_to(camera, spheres.origin()), size_.width, size_.height).at(x_px, y_px);
       const Hit hit = tracer->closest_hit(ray);
-      if (hit.found()) return to_double(ray.origin) + hit.t * to_double(ray.direction);
+      if (hit.found()) return spheres.in_world(to_double(ray.origin) + hit.t * to_double(ray.direction));
     }
     return point_under(camera, x_px, y_px, size_);
   }

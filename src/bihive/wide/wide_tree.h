@@ -88,7 +88,8 @@ struct Pile {
 /// std::shared_ptr<const WideTree>. An empty set has no nodes. Otherwise nodes[0] is the root, even of a single sphere.
 struct WideTree {
   Aabb aabb;                ///< of all spheres
-  double scale = 1;         ///< stored = world * scale, a power of two
+  double scale = 1;         ///< stored = (world - origin) * scale, a power of two
+  Vec3d origin;             ///< SphereSet::origin()
   std::int64_t size = 0;    ///< spheres
   std::int64_t placed = 0;  ///< of them, those in leaves: all except `others_in_piles`
   std::int64_t node_count = 0;
@@ -107,6 +108,8 @@ struct WideTree {
   std::vector<std::uint32_t> others_in_piles;
 
   AlignedBuffer node_memory, sphere_memory;  ///< memory of the arrays above
+
+  Vec3d stored(Vec3d world) const { return (world - origin) * scale; }
 
   /// The centre that a ray meets, in stored units.
   Vec3d centre(std::int64_t slot) const {

@@ -1,5 +1,7 @@
 #include "bihive/io/assemble/finish.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -14,9 +16,6 @@
 
 namespace bihive {
 namespace {
-
-// The user is told of a centre that moves by more than this share of its radius.
-constexpr double kHarmlessShift = 0.01;
 
 // Three coordinates and a radius as they are read, and as they are kept.
 constexpr double kRadiusBytes = sizeof(double), kReadBytes = 4 * sizeof(double), kSetBytes = 4 * sizeof(float);
@@ -135,31 +134,25 @@ void SphereFinisher::recenter(const std::array<double, 6>& ends) {
   recentred_by_ = middle;
 }
 
-Result<double> SphereFinisher::extent() const {
-  Result<double> extent = SphereSet::extent_of_world(raw_.x, raw_.y, raw_.z, raw_.r, first_);
-  if (!extent) return named(extent.error());
-  return extent;
+Result<WorldEnds> SphereFinisher::ends() const {
+  Result<WorldEnds> ends = SphereSet::ends_of_world(raw_.x, raw_.y, raw_.z, raw_.r, first_);
+  if (!ends) return named(ends.error());
+  return ends;
 }
 
-Result<RoundingLoss> SphereFinisher::round(double extent_of_whole) {
-  Result<SphereSet> set = SphereSet::chunk_from_world(raw_.x, raw_.y, raw_.z, raw_.r, first_, extent_of_whole);
+bool SphereFinisher::is_coarse_about_zero(double extent_of_whole) const {
+  return SphereSet::is_coarse_about_zero(raw_.x, raw_.y, raw_.z, raw_.r, extent_of_whole);
+}
+
+Result<RoundingLoss> SphereFinisher::round(const WorldEnds& ends_of_whole, Vec3d origin) {
+  Result<SphereSet> set = SphereSet::chunk_from_world(raw_.x, raw_.y, raw_.z, raw_.r, first_, ends_of_whole, origin);
   if (!set) return named(set.error());
   set_ = std::move(*set);
-
-  // Compare with what was read.
-  RoundingLoss loss;
-  loss.worst_share = kHarmlessShift;
-  for (std::int64_t id = 0; id < set_.size(); ++id) {
-    const auto i = static_cast<std::size_t>(id);
-    if (!(raw_.r[i] > 0)) continue;
-    const double share = length(set_.centre(id) - Vec3d{raw_.x[i], raw_.y[i], raw_.z[i]}) / raw_.r[i];
-    if (!(share > kHarmlessShift)) continue;
-    ++loss.moved;
-    if (share > loss.worst_share) {
-      loss.worst_share = share;
-      loss.worst_id = first_ + id;
-    }
-  }
+  const RoundingLoss loss = rounding_loss(set_, NumbersView::of(raw_.x), NumbersView::of(raw_.y),
+                                          NumbersView::of(raw_.z), NumbersView::of(raw_.r), first_);
+  if (set_.has_origin())
+    raw_.rules.push_back(fmt::format("coordinates: rounded relative to ({}, {}, {}), where single precision is finer",
+                                     origin.x, origin.y, origin.z));
 
   set_.cell() = raw_.cell;
   if (Status status = set_.replicate(images_.vectors, images_.counts); !status) {
@@ -167,18 +160,12 @@ Result<RoundingLoss> SphereFinisher::round(double extent_of_whole) {
     error.hint = "see " + setting_name("replicate") + " and " + setting_name("cell_vectors");
     return error;
   }
-  loss.vanishing = set_.vanishing_radii();
   return loss;
 }
 
 SphereFile SphereFinisher::finish(const RoundingLoss& of_whole) {
-  if (of_whole.moved > 0)
-    raw_.warnings.push_back("rounding to single precision moves " + std::to_string(of_whole.moved) + " of " +
-                            std::to_string(all_) + " centres by more than 1 % of the radius (sphere " +
-                            std::to_string(of_whole.worst_id) + " by " + readable_number(100 * of_whole.worst_share) +
-                            " %)" +
-                            (options_.recenter ? "; the radii are too small for the extent"
-                                               : "; " + setting_name("recenter") + " makes it finer"));
+  if (std::string warning = rounding_warning(of_whole, all_); !warning.empty())
+    raw_.warnings.push_back(std::move(warning));
   if (of_whole.vanishing > 0)
     raw_.warnings.push_back(spheres_have(of_whole.vanishing) +
                             " a radius below 2^-60 of the whole extent and cannot be told from a point");
@@ -207,7 +194,10 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   }
   if (Status status = steps.apply_options(); !status) return status.error();
   if (options.recenter) steps.recenter(steps.centre_ends());
-  const Result<RoundingLoss> loss = steps.round(0);
+  const Result<WorldEnds> ends = steps.ends();
+  if (!ends) return ends.error();
+  const bool coarse = steps.is_coarse_about_zero(ends->extent());
+  const Result<RoundingLoss> loss = steps.round(*ends, coarse ? ends->origin() : Vec3d{});
   if (!loss) return loss.error();
   return steps.finish(*loss);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bihive/base/result.h"
+#include "bihive/geometry/rounding_loss.h"
 #include "bihive/io/assemble/unknown_radii.h"
 #include "bihive/io/raw_spheres.h"
 #include "bihive/io/read_spheres.h"
@@ -15,14 +16,6 @@ namespace bihive {
 /// Gives radii to spheres without radii (io/assemble/unknown_radii.h), applies the options, and rounds once. `name` is
 /// the file's, for messages. Errors: no spheres; a number that is not finite, out of range, or a negative radius.
 Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options);
-
-/// The centres that rounding moves by more than is harmless, and the radii that it makes to points.
-struct RoundingLoss {
-  std::int64_t moved = 0;
-  double worst_share = 0;  ///< of the radius
-  std::int64_t worst_id = -1;
-  std::int64_t vanishing = 0;
-};
 
 /// The steps of finish_spheres(), in this order, for a chunk of a set that several processes read: what a step must
 /// know of the whole set is handed in. `first`, `all`: the spheres of the chunks before, and of all.
@@ -42,10 +35,11 @@ class SphereFinisher {
   /// The negative of the smallest, and the greatest coordinate of centres, axis by axis; -inf without spheres.
   std::array<double, 6> centre_ends() const;
   void recenter(const std::array<double, 6>& ends_of_whole);
-  Result<double> extent() const;
-  /// `extent_of_whole`: the greatest extent() of all chunks, or less than that of the only one. Returns the chunk's
-  /// loss.
-  Result<RoundingLoss> round(double extent_of_whole);
+  Result<WorldEnds> ends() const;
+  bool is_coarse_about_zero(double extent_of_whole) const;
+  /// `ends_of_whole`: the maximum of ends() of all chunks. `origin`: theirs if some chunk is coarse about 0, else 0.
+  /// Returns the chunk's loss.
+  Result<RoundingLoss> round(const WorldEnds& ends_of_whole, Vec3d origin);
   /// At most once.
   SphereFile finish(const RoundingLoss& of_whole);
 

@@ -19,8 +19,9 @@ CellEdges::CellEdges(const Scene& scene, const std::optional<CellLines>& lines, 
     : parallel_(scene.camera.projection == Projection::orthographic) {
   if (!lines || !scene.spheres.cell()) return;
   lines_ = *lines;
-  const PixelPlaces places(scene.camera, width_px, height_px);
+  const PixelPlaces places(local_camera(scene), width_px, height_px);
   const Cell& cell = *scene.spheres.cell();
+  const Vec3d origin = scene.spheres.to_local(cell.origin);
   const Images& images = scene.spheres.images();
 
   // Along each vector one line from end to end for each corner of the cells across it.
@@ -35,7 +36,7 @@ CellEdges::CellEdges(const Scene& scene, const std::optional<CellLines>& lines, 
     const Vec3d whole = counts[along] * cell.vectors[along];
     for (double i = 0; i <= counts[u]; i += outer_alone ? counts[u] : 1)
       for (double j = 0; j <= counts[v]; j += outer_alone ? counts[v] : 1) {
-        const Vec3d corner = cell.origin + i * cell.vectors[u] + j * cell.vectors[v];
+        const Vec3d corner = origin + i * cell.vectors[u] + j * cell.vectors[v];
         add(corner, corner + whole, places);
       }
   }

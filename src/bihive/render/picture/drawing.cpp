@@ -140,7 +140,7 @@ Drawing::Drawing(const Scene& scene, const Tracer& tracer, const RenderSettings&
       settings_(settings),
       progress_(progress),
       cancel_(cancel),
-      rays_(scene.camera, settings.width_px, settings.height_px),
+      rays_(local_camera(scene), settings.width_px, settings.height_px),
       transparency_(std::move(transparency)),
       wave_scene_(scene, transparency_.to_eye ? OpacityRule::once : OpacityRule::each_surface),
       post_processing_(scene, wave_scene_, tracer, settings, rays_, &transparency_),

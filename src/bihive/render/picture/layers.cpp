@@ -187,7 +187,7 @@ std::vector<Channel> draw_layers(const Scene& scene, const Tracer& tracer, const
   for (Channel& channel : channels) channel.of_ids ? channel.ids.resize(pixels) : channel.numbers.resize(pixels);
 
   // The light is there; the others need their writers.
-  const PixelRays rays(scene.camera, settings.width_px, settings.height_px);
+  const PixelRays rays(local_camera(scene), settings.width_px, settings.height_px);
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   std::vector<LayerWriter> writers;
   std::size_t first = 0;

@@ -11,7 +11,7 @@ namespace {
 constexpr int kOfEach = 8;  // tiles for each who draws
 
 // The renderer's own tiles have this width.
-constexpr int kStep = 64;
+constexpr int kTileStepPx = 64;
 constexpr int kLeastRows = 16, kMostRows = 64;
 
 int in_steps(int all, int step) {
@@ -27,7 +27,7 @@ PictureTiles::PictureTiles(const RenderSettings& settings, int who_draw) : all_(
   const double area = pixels / kOfEach / who_draw;
   height_ = std::clamp(static_cast<int>(std::sqrt(area)), kLeastRows, kMostRows);
   const double width = std::clamp(area / height_, 1.0, static_cast<double>(all_.width()));
-  width_ = in_steps(static_cast<int>(width), kStep) * kStep;
+  width_ = in_steps(static_cast<int>(width), kTileStepPx) * kTileStepPx;
   columns_ = in_steps(all_.width(), width_);
   rows_ = in_steps(all_.height(), height_);
 }

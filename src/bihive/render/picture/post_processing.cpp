@@ -44,7 +44,7 @@ PostProcessing::PostProcessing(const Scene& scene, const WaveScene& wave_scene, 
     const RemainingSpheres remaining(scene);
     const Vec3d eye = to_double(rays.eye());
     for_each_sphere(remaining.set(), [&](std::int64_t, Vec3d centre, double radius) {
-      const double depth = dot(centre - eye, rays.forward());
+      const double depth = dot(scene.spheres.to_local(centre) - eye, rays.forward());
       nearest_ = std::min(nearest_, depth - radius);
       farthest_ = std::max(farthest_, depth + radius);
     });

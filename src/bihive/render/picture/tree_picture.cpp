@@ -53,12 +53,16 @@ Camera frame_tree(const SphereSet& spheres, const Side& side, const Lens& lens, 
   if (!spheres.empty()) {
     const SphereSet::Bounds bounds = spheres.bounds();
     for (int corner = 0; corner < 8; ++corner) {
-      x.push_back((corner & 1) != 0 ? bounds.hi.x : bounds.lo.x);
-      y.push_back((corner & 2) != 0 ? bounds.hi.y : bounds.lo.y);
-      z.push_back((corner & 4) != 0 ? bounds.hi.z : bounds.lo.z);
+      const Vec3d at = spheres.to_local({(corner & 1) != 0 ? bounds.hi.x : bounds.lo.x,
+                                         (corner & 2) != 0 ? bounds.hi.y : bounds.lo.y,
+                                         (corner & 4) != 0 ? bounds.hi.z : bounds.lo.z});
+      x.push_back(at.x);
+      y.push_back(at.y);
+      z.push_back(at.z);
     }
   }
-  const Result<SphereSet> corners = SphereSet::from_world(x, y, z, std::vector<double>(x.size(), 0.0));
+  const Result<SphereSet> corners =
+      SphereSet::from_local(x, y, z, std::vector<double>(x.size(), 0.0), spheres.origin());
   const CanvasArea part = tree_picture_layout(width_px, height_px).boxes;
   return frame_spheres(corners ? *corners : spheres, side, lens, static_cast<int>(part.width()),
                        static_cast<int>(part.height()));
@@ -82,7 +86,7 @@ Result<Rendered> render_tree_picture(const Scene& scene, const Tracer& tracer, c
   if (!rendered) return rendered;
   draw_relief(canvas, rendered->film, scene.camera);
 
-  draw_tree_boxes(canvas, layout.boxes, *tracer.tree(), scene.spheres.inverse_scale(), scene.camera);
+  draw_tree_boxes(canvas, layout.boxes, *tracer.tree(), scene.spheres.inverse_scale(), local_camera(scene));
   draw_tree_bars(canvas, layout.bars, *tracer.tree());
 
   rendered->film = Film(settings.width_px, settings.height_px);

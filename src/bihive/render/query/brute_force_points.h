@@ -23,8 +23,8 @@ inline std::vector<SphereAtDistance> every_sphere_within(const SphereSet& sphere
   std::vector<SphereAtDistance> found;
   for (std::int64_t id = 0; id < spheres.total_size(); ++id) {
     if (mask != nullptr && mask[id] == 0) continue;
-    const double distance =
-        sphere_distance(point * spheres.scale(), spheres.stored_centre(id), spheres.stored_radius(id), to);
+    const double distance = sphere_distance(spheres.to_local(point) * spheres.scale(), spheres.stored_centre(id),
+                                            spheres.stored_radius(id), to);
     if (distance <= limit * spheres.scale()) found.emplace_back(distance, id);
   }
   if (most >= 0) {

@@ -76,7 +76,7 @@ Vec3d ambient_visibility(const Scene& scene, const LightPaths& paths, const Surf
     Ray ray = ray_from(surface, to_double(direction), surface.from_inside);
     ray.t_max = distance;
     ++ambient_rays;
-    if (scene.plane && plane_hit(ray, scene.plane->plane) < kInfinity) continue;
+    if (scene.plane && plane_hit(ray, local_plane(scene)) < kInfinity) continue;
     seen = seen + facing * paths.share(ray);
   }
   return in_front > 0 ? seen / in_front : Vec3d{1, 1, 1};
@@ -103,7 +103,9 @@ Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& su
   const double cosine = -dot(surface.incoming, surface.normal);
   Vec3d diffuse;
   Vec3d specular;
-  for (const PointLight& light : scene.lights) {
+  for (const PointLight& of_world : scene.lights) {
+    PointLight light = of_world;
+    light.position = scene.spheres.to_local(light.position);
     // Leave out lights behind the surface, and lights of which nothing arrives.
     const LightOffset centre(light.position, surface);
     LightShare share{{}, {1, 1, 1}};

@@ -45,7 +45,7 @@ Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit, cons
     if (scene.plane->checker) surface.material.colour = checker_colour(*scene.plane, *scene.plane->checker, point);
   } else {
     if (cuts == nullptr || !cuts->cap_normal(ray, hit.id, outward))
-      outward = normalized((origin - scene.spheres.centre(hit.id)) + along);
+      outward = normalized((origin - scene.spheres.local_centre(hit.id)) + along);
     surface.material = material_of(scene, hit.id);
   }
   surface.from_inside = dot(surface.incoming, outward) > 0;

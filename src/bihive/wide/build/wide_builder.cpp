@@ -217,6 +217,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
                                    std::int64_t most_ids, WideTree& tree) {
   const std::int64_t count = spheres.size();
   tree.scale = spheres.scale();
+  tree.origin = spheres.origin();
   tree.size = tree.placed = count;
   tree.piles.clear();
   tree.others_in_piles.clear();

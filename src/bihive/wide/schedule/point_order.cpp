@@ -42,7 +42,7 @@ void PointOrder::find(const WideTree& tree, const PointSpan& points, std::vector
   }
   cells_.resize(static_cast<std::size_t>(points.count));
   for (std::int64_t i = 0; i < points.count; ++i) {
-    const Vec3d at = points.at(i) * tree.scale;
+    const Vec3d at = tree.stored(points.at(i));
     std::uint32_t cell = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double place = std::clamp((at[axis] - low[axis]) * per_unit[axis], 0.0, last);

@@ -98,7 +98,7 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
           const std::size_t known = here.size();
-          find_within(tree, {points.at(i) * tree.scale, limit(i) * tree.scale, options.to, options.mask}, here);
+          find_within(tree, {tree.stored(points.at(i)), limit(i) * tree.scale, options.to, options.mask}, here);
           std::sort(here.begin() + static_cast<std::ptrdiff_t>(known), here.end(),
                     [](const NearSphere& a, const NearSphere& b) { return a.id < b.id; });
           count_of(i) = static_cast<std::int64_t>(here.size() - known);
@@ -157,7 +157,7 @@ Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& po
           std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
           room.resize(static_cast<std::size_t>(most));
           const std::int64_t count = wide::find_nearest(
-              tree, {points.at(i) * tree.scale, within * tree.scale, options.to, options.mask}, most, room.data());
+              tree, {tree.stored(points.at(i)), within * tree.scale, options.to, options.mask}, most, room.data());
           for (std::int64_t k = 0; k < count; ++k) {
             const auto to = static_cast<std::size_t>(i * per_point + k);
             nearest.distance[to] = room[static_cast<std::size_t>(k)].distance * unit;

@@ -13,6 +13,7 @@ WideTree WideTree::image(Vec3d by) const {
   WideTree made;
   made.aabb = aabb;
   made.scale = scale;
+  made.origin = origin;
   made.size = size;
   made.placed = placed;
   made.node_count = node_count;

@@ -131,6 +131,7 @@ Status check_repeated(const WideTree& tree, const SphereSet& set) {
 Status validate_wide_tree(const WideTree& tree, const SphereSet& set) {
   if (tree.size != set.size()) return wrong("it does not have one slot per sphere");
   if (tree.scale != set.scale()) return wrong("its scale differs from the spheres'");
+  if (tree.origin != set.origin()) return wrong("its origin differs from the spheres'");
   if (set.empty()) return tree.node_count == 0 ? Status(Done{}) : wrong("it has nodes without spheres");
   if (tree.node_count < 1) return wrong("it has no root");
   if (tree.spheres.has_palette == (tree.spheres.r != nullptr)) return wrong("it has a palette and radii, or neither");

@@ -19,7 +19,7 @@ void hit_plane_on_target(const WaveScene& scene, const WavePart& part, double* t
   for (std::int64_t k = 0; k < part.count(); k += kLanes) {
     const std::int64_t i = part.first + k;
     RayLanes rays{load(wave.origin, i), load(wave.direction, i), hn::LoadU(Tag(), t + k), hn::LoadU(LongTag(), id + k)};
-    hit_plane(scene.scene->plane->plane, wave, i, rays);
+    hit_plane(scene.plane, wave, i, rays);
     hn::StoreU(rays.t, Tag(), t + k);
     hn::StoreU(rays.id, LongTag(), id + k);
   }
@@ -56,7 +56,7 @@ void find_surfaces_on_target(const WaveScene& wave_scene, const WavePart& part, 
     const std::int64_t i = part.first + k;
     const LaneMask there = first_lanes(part.count() - k);
     RayLanes rays{load(wave.origin, i), load(wave.direction, i), hn::LoadU(Tag(), t + k), hn::LoadU(w, id + k)};
-    if (scene.plane) hit_plane(scene.plane->plane, wave, i, rays);
+    if (scene.plane) hit_plane(wave_scene.plane, wave, i, rays);
 
     // Separate the rays that miss everything from the others.
     const LaneMask found = hn::And(there, lanes_of(hn::Ne(rays.id, hn::Set(w, kNothing))));
@@ -94,6 +94,7 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
       materials(drawn.materials),
       passes_apart(rule == OpacityRule::once),
       faintest_ray(passes_apart ? kFaintestRay : 0),
+      lights(local_lights(drawn)),
       cuts(cut_set_of(drawn)),
       image_colours(drawn) {
   for (Material& material : materials)
@@ -102,6 +103,7 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
   has_effects = bihive::has_effects(drawn);
   has_attributes = !attributes.colour.empty() || !attributes.opacity.empty();
   if (!drawn.plane) return;
+  plane = local_plane(drawn);
   plane_material = static_cast<std::int64_t>(materials.size());
   Material material = drawn.plane->material;
   materials.push_back(material);

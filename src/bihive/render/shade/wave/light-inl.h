@@ -110,7 +110,7 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
   Lanes3 specular = all(Vec3d{});
   std::int64_t hidden_at = first;
   std::int64_t soft_at = first;
-  for (const PointLight& light : wave_scene.scene->lights) {
+  for (const PointLight& light : wave_scene.lights) {
     const LightLanes to_light(light.position, surface.origin, surface.normal);
     const LaneMask in_front = hn::And(to_light.in_front, there);
     LaneMask lit = in_front;

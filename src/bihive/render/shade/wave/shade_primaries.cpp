@@ -22,7 +22,7 @@ HWY_INLINE void shade_primaries_from(const WaveScene& scene, const WavePart& par
   double* const red = sums.light[0].data();
   double* const green = sums.light[1].data();
   double* const blue = sums.light[2].data();
-  const Plane* const plane = scene.scene->plane ? &scene.scene->plane->plane : nullptr;
+  const Plane* const plane = scene.scene->plane ? &scene.plane : nullptr;
   const Lanes3 background = add(all(Vec3d{}), all(scene.scene->background));
   // Of rays from one origin, the plane's height above it is the same for all.
   const Lanes3 eye = all(Vec3d{double(wave.origin[0][part.first]), double(wave.origin[1][part.first]),

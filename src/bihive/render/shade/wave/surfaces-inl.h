@@ -100,11 +100,11 @@ inline HWY_NOINLINE void put_cap_normals(const CutSet& cuts, const Wave& wave, s
   outward = {hn::Load(Tag(), x), hn::Load(Tag(), y), hn::Load(Tag(), z)};
 }
 
-// World units. Makes the ids those of the stored spheres.
+// Local centres. Makes the ids those of the stored spheres.
 inline HWY_NOINLINE Lanes3 centres_of_images(const SphereSet& spheres, std::int64_t ids[kLanes]) {
   alignas(64) double x[kLanes], y[kLanes], z[kLanes];
   for (int k = 0; k < kLanes; ++k) {
-    const Vec3d centre = spheres.centre(ids[k]);
+    const Vec3d centre = spheres.local_centre(ids[k]);
     x[k] = centre.x;
     y[k] = centre.y;
     z[k] = centre.z;

@@ -36,6 +36,8 @@ struct WaveScene {
   bool passes_apart = false;
   double faintest_ray = 0;             ///< rays with less weight are not sent on: kFaintestRay with OpacityRule::once
   std::int64_t plane_material = 0;     ///< the plane's first
+  Plane plane{};                       ///< local, if the scene has one
+  std::vector<PointLight> lights;      ///< local
   PlaneAxes axes{};                    ///< of the plane, if it has a checker
   std::shared_ptr<const CutSet> cuts;  ///< null: all spheres are whole
   ImageColours image_colours;

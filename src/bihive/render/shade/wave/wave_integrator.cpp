@@ -244,7 +244,7 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
     for (std::int64_t k = known; k < surfaces.count; ++k)
       deepest_hit_[static_cast<std::size_t>(surfaces.owner[k])] = static_cast<std::uint8_t>(depth);
   if (with_shadows()) {
-    const std::vector<PointLight>& lights = scene_.scene->lights;
+    const std::vector<PointLight>& lights = scene_.lights;
     if (!lights.empty() && !is_soft(lights[0])) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
   } else if (settings_.light && !with_ambient()) {
     steps::add_local_light(scene_, surfaces, {}, {}, buffers.sums);
@@ -273,7 +273,7 @@ steps::PlacesAlike WaveIntegrator::alike(int set, int sets, int level, const Wav
 
 void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
   const std::int64_t surfaces = buffers.surfaces.count;
-  const std::vector<PointLight>& lights = scene_.scene->lights;
+  const std::vector<PointLight>& lights = scene_.lights;
   const std::int64_t all = surfaces * static_cast<std::int64_t>(lights.size());
   buffers.hidden.reserve(all);
   std::fill_n(buffers.hidden.data(), all, std::uint8_t{0});
@@ -311,7 +311,7 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
   const WaveSurfaces& surfaces = buffers.surfaces;
   const LightPointSets& points = *settings_.light_points;
   std::vector<const PointLight*> lights;
-  for (const PointLight& light : scene_.scene->lights)
+  for (const PointLight& light : scene_.lights)
     if (is_soft(light)) lights.push_back(&light);
   const std::int64_t all = surfaces.count * static_cast<std::int64_t>(lights.size());
   for (int channel = 0; channel < channels(); ++channel) {
@@ -363,8 +363,7 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
       rays_.ambient += rays.count;
       if (scene_.scene->plane)
         for (std::int64_t i = 0; i < rays.count; ++i)
-          if (plane_hit(rays.at(i), scene_.scene->plane->plane) < std::numeric_limits<double>::infinity())
-            wave.hidden[i] = 1;
+          if (plane_hit(rays.at(i), scene_.plane) < std::numeric_limits<double>::infinity()) wave.hidden[i] = 1;
       steps::add_visible(wave);
     });
     if (cancelled()) return;

@@ -1,0 +1,27 @@
+// What rounding to binary32 does to the spheres of a set.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bihive/geometry/sphere_set.h"
+
+namespace bihive {
+
+/// The centres that rounding moves by more than SphereSet::kHarmlessShift of their radius, and the radii that it makes
+/// to points.
+struct RoundingLoss {
+  std::int64_t moved = 0;
+  double worst_share = SphereSet::kHarmlessShift;  ///< of the radius
+  std::int64_t worst_id = -1;
+  std::int64_t vanishing = 0;
+};
+
+/// `set` was made from these numbers, without images. `first_id`: of its first sphere in the whole set.
+RoundingLoss rounding_loss(const SphereSet& set, const NumbersView& x, const NumbersView& y, const NumbersView& z,
+                           const NumbersView& r, std::int64_t first_id = 0);
+
+/// A sentence for the user, about a set of `all` spheres. Empty: nothing has moved.
+std::string rounding_warning(const RoundingLoss& loss, std::int64_t all);
+
+}  // namespace bihive
