@@ -8,7 +8,7 @@
 
 namespace bihive {
 
-/// Whether the bytes are packed with gzip, zstd, xz or bzip2.
+/// Whether the bytes are packed with gzip, zstd, xz or bzip2, or are BinaryCIF.
 bool is_packed(std::string_view bytes);
 
 /// The first 64 kB of what a file holds, unpacked; fewer if it holds fewer. It shows the format. Errors: as

@@ -23,7 +23,6 @@ constexpr ForeignFormat kKnown[] = {
     {"utf16", "a text in UTF-16", "", "convert it with 'iconv -f UTF-16 -t UTF-8 FILE > OUT'"},
     {"cr", "a text whose lines end in CR (carriage return) alone", "",
      "convert it with 'tr \"\\r\" \"\\n\" < FILE > OUT'"},
-    {"bcif", "a BinaryCIF file", ".bcif", "take the entry's mmCIF file"},
     {"mmtf", "an MMTF file", ".mmtf", "take the entry's mmCIF file"},
     {"pdbml", "a PDBML file (XML)", "", "take the entry's mmCIF file"},
     {"cml", "a CML file (XML)", ".cml", kBabel},

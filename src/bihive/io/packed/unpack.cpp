@@ -8,6 +8,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/io/packed.h"
+#include "bihive/io/packed/binary_cif.h"
 #include "bihive/io/packed/unpackers.h"
 
 #if BIHIVE_HAS_ZLIB
@@ -175,7 +176,7 @@ Packing packing_of(std::string_view first_bytes) {
   for (const PackingRow& row : kPackings)
     if (first_bytes.substr(0, row.mark.size()) == row.mark && (row.packing != Packing::bzip2 || is_bzip2(first_bytes)))
       return row.packing;
-  return Packing::none;
+  return is_binary_cif(first_bytes) ? Packing::binary_cif : Packing::none;
 }
 
 std::string_view packed_ending(std::string_view name) {
@@ -189,10 +190,23 @@ bool is_packed(std::string_view bytes) {
 }
 
 Status unpack_pieces(Packing packing, const PieceSource& source, const std::string& name, const PieceSink& sink) {
+  BinaryCifFilter filter(name, sink);
+  const PieceSink filtered = [&filter](std::string_view piece) { return filter.take(piece); };
+  if (packing == Packing::binary_cif) {
+    for (bool more = true; more;) {
+      const Result<std::string_view> piece = source();
+      if (!piece) return piece.error();
+      const Result<bool> taken = piece->empty() ? Result<bool>(false) : filtered(*piece);
+      if (!taken) return taken.error();
+      more = *taken;
+    }
+    return filter.finish();
+  }
   const auto* const row = std::find_if(std::begin(kPackings), std::end(kPackings),
                                        [packing](const auto& one) { return one.packing == packing; });
   BIHIVE_CHECK(row != std::end(kPackings));
-  return row->unpack(source, name, sink);
+  if (Status status = row->unpack(source, name, filtered); !status) return status;
+  return filter.finish();
 }
 
 Result<std::string> unpack_bytes(std::string_view bytes, const std::string& name) try {

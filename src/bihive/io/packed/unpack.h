@@ -1,4 +1,4 @@
-// Undoes gzip, zstd, xz and bzip2 piece by piece, so that neither side must be in memory as a whole.
+// Undoes gzip, zstd, xz, bzip2 and BinaryCIF piece by piece, so that neither side must be in memory as a whole.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace bihive {
 
-enum class Packing { none, gzip, zstd, xz, bzip2 };
+/// binary_cif becomes the text of mmCIF, also inside of the others.
+enum class Packing { none, gzip, zstd, xz, bzip2, binary_cif };
 
 /// Bytes that are enough for packing_of().
 constexpr std::size_t kPackingMarkBytes = 10;
