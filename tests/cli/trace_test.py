@@ -143,7 +143,7 @@ class Trace(ProgramTest):
             numpy.save(self.path("rays.npy"), array)
             return self.fail_input("trace", "demo", "--rays", "rays.npy", "--t", "t.npy", "--id", "id.npy")
 
-        self.assertIn("<f8", complaint(numpy.zeros((3, 6))))
+        self.assertIn("<i8", complaint(numpy.zeros((3, 6), dtype=int)))
         self.assertIn("<i4", complaint(numpy.zeros((3, 6), dtype=numpy.int32)))
         self.assertIn("(3, 7)", complaint(numpy.zeros((3, 7), dtype=numpy.float32)))
         self.assertIn("(6)", complaint(numpy.zeros(6, dtype=numpy.float32)))
