@@ -12,6 +12,7 @@
 #include "answers.h"
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
+#include "bihive/io/frames.h"
 #include "bihive/io/reading_settings.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/look_text.h"
@@ -89,16 +90,17 @@ std::string Page::load(const std::string& name, const std::string& trajectory, c
     Result<LoadedFile> file = load_file(viewer_, folder() + name, reading);
     if (!file) return failure(file.error());
     frames_ = std::move(file->frames);
-    start_player();
+    start_player(reading.frame);
     return loaded(file->facts);
   });
 }
 
 // --- The player -------------------------------------------------------------------------------------------------
 
-void Page::start_player() {
-  player_.start_anew(frames_ ? frames_->count() : 1);
-  frame_in_viewer_ = 0;
+void Page::start_player(std::int64_t frame) {
+  const std::int64_t count = frames_ ? frames_->count() : 1;
+  frame_in_viewer_ = frames_ ? numbered_frame(frame, count) : 0;
+  player_.start_anew(count, frame_in_viewer_);
   frame_is_drawn_ = true;
 }
 
@@ -167,7 +169,7 @@ std::string Page::load_built_in(const std::string& name, double count, const std
     if (reading.radius) parameters.radius = scenario_radius(*reading.radius);
     const Result<SceneFacts> facts = viewer_.load_built_in(name, parameters, reading);
     if (facts) frames_.reset();
-    if (facts) start_player();
+    if (facts) start_player(0);
     return loaded(facts);
   });
 }

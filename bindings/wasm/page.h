@@ -91,7 +91,7 @@ class Page {
   void drop_picture() { viewer_.drop_picture(); }
 
  private:
-  void start_player();
+  void start_player(std::int64_t frame);
   Status show_frame(std::int64_t frame);
   std::string loaded(const Result<SceneFacts>& facts) const;
 

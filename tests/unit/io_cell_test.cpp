@@ -56,6 +56,10 @@ TEST(Cell, OfMmcifIsThatOfItsBlock) {
   expect_near(found.vectors[1], {0, 20.5, 0});
   expect_near(found.vectors[2], {0, 0, 30});
   EXPECT_EQ(cell_of(read_text("data_a\n" + atoms + cell, "a.cif")).vectors, found.vectors);
+  const std::string loop =
+      "loop_\n_cell.entry_id\n_cell.length_a\n_cell.length_b\n_cell.length_c\n_cell.angle_alpha\n"
+      "_cell.angle_beta\n_cell.angle_gamma\n_cell.Z_PDB\n9 10 20.5 30 90 90 90 4\n9 1 1 1 1 1 1 4\n";
+  EXPECT_EQ(cell_of(read_text("data_a\n" + loop + atoms, "a.cif")).vectors, found.vectors);
   EXPECT_FALSE(read_text("data_a\n" + cell + "data_b\n" + atoms, "a.cif").spheres.cell().has_value());
 }
 

@@ -194,17 +194,22 @@ class AtomSites {
     row_ = {};
     ours_ = false;
     loop_tags_.clear();
+    cell_items_.clear();
+    is_cell_ = false;
     assemblies_.begin_loop();
   }
   void add_loop_tag(const Value& tag) {
     assemblies_.add_loop_tag(tag.text);
     note_category(tag.text);
     columns_.push_back(item_of(tag.text));
+    cell_items_.push_back(cell_item_of(tag.text));
+    is_cell_ = is_cell_ || cell_items_.back() < cell_.size();
     ours_ = ours_ || columns_.back() != kItems;
     refuse_duplicate(tag, loop_tags_);
   }
   void add_loop_value(const Value& value) {
     if (!done_) assemblies_.add_loop_value(value.text);
+    if (is_cell_) take_cell_of_loop(value);
     if (!ours_) return;
     const int item = columns_[column_];
     if (item != kItems) row_[static_cast<std::size_t>(item)] = value;
@@ -229,11 +234,7 @@ class AtomSites {
   }
   void add_pair_value(const Value& value) {
     if (!done_) assemblies_.add_pair_value(value.text);
-    if (!done_ && cell_item_ < cell_.size()) {
-      const std::string_view digits = value.unquoted();
-      cell_[cell_item_] = parse_double(digits.substr(0, digits.find('('))).value_or(0);
-      states_cell_ = states_cell_ || !value.missing();
-    }
+    put_cell_item(cell_item_, value);
     if (pair_item_ != kItems) pair_row_[static_cast<std::size_t>(pair_item_)] = value;
   }
 
@@ -261,6 +262,20 @@ class AtomSites {
  private:
   [[noreturn]] void stop(const Value& at, const std::string& what) const {
     throw Stop{{what, file_, static_cast<std::int64_t>(at.line), static_cast<std::int64_t>(at.column), ""}};
+  }
+
+  void put_cell_item(std::size_t item, const Value& value) {
+    if (done_ || item >= cell_.size()) return;
+    const std::string_view digits = value.unquoted();
+    cell_[item] = parse_double(digits.substr(0, digits.find('('))).value_or(0);
+    states_cell_ = states_cell_ || !value.missing();
+  }
+
+  // A loop of one row says the same as pairs.
+  void take_cell_of_loop(const Value& value) {
+    if (cell_items_.empty()) return;
+    put_cell_item(cell_items_.front(), value);
+    cell_items_.erase(cell_items_.begin());
   }
 
   void take_cell() {
@@ -373,8 +388,10 @@ class AtomSites {
   std::unordered_set<std::string> loop_tags_, pair_tags_;  // in lower case, to find duplicates
   bool is_monomer_ = false, is_reflections_ = false;
   int pair_item_ = kItems;
-  std::array<double, 6> cell_{};  // as unit_cell() takes them; 0: missing
-  std::size_t cell_item_ = 6;     // the item of the last tag; 6: none of them
+  std::vector<std::size_t> cell_items_;  // of the columns of a loop whose first values come
+  bool is_cell_ = false;                 // some column is of the cell
+  std::array<double, 6> cell_{};         // as unit_cell() takes them; 0: missing
+  std::size_t cell_item_ = 6;            // the item of the last tag; 6: none of them
   Row pair_row_{};
   bool states_cell_ = false;
   std::int64_t atoms_ = 0;  // of all models
@@ -479,7 +496,7 @@ Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, st
 }  // namespace
 
 extern constexpr Format kMmcif(
-    "mmCIF", ".cif .mmcif .pdbx", Format::kText | Format::kFrames, is_cif, read_mmcif,
+    "mmCIF", ".cif .mmcif .pdbx .bcif", Format::kText | Format::kFrames, is_cif, read_mmcif,
     "`data_` | ATOM and HETATM of one model; the likeliest of alternate locations | van der Waals, by element");
 
 }  // namespace bihive
