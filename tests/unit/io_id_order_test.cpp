@@ -119,7 +119,7 @@ TEST(IdOrder, EachFrameOfAFileOnTheDiskIsInOrder) {
   // The lines are those of the file, also where a frame is read by its place.
   EXPECT_EQ((*frames)->read(3)->warnings.front(),
             file.path() +
-                ":47: the id 4 stands in line 46 too, so ids do not say which sphere is which, and the order "
+                ":46: the id 4 stands in line 45 too, so ids do not say which sphere is which, and the order "
                 "of the file is kept");
 }
 
