@@ -81,7 +81,7 @@ TEST(LammpsDump, TakesTheFrameAskedForAndOtherSections) {
   EXPECT_EQ(read_text(text, "d").frames, 3);
   EXPECT_EQ(read_text(text, "d").spheres.centre(0), (Vec3d{1, 0, 0}));
   EXPECT_EQ(read_text(text, "d", at_frame(1)).spheres.centre(1), (Vec3d{3, 0, 0}));
-  EXPECT_EQ(error_of(text, "d", at_frame(2)), "d: there are no spheres in it (read as LAMMPS dump)");
+  EXPECT_EQ(error_of(text, "d", at_frame(2)), "d: there are no spheres in frame 2 (read as LAMMPS dump)");
   EXPECT_EQ(error_of(text, "d", at_frame(3)),
             "d: there is no frame 3: the file has 3 (0 to 2); choose one with frame, counting from 0");
 }

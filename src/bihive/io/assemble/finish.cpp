@@ -196,17 +196,19 @@ SphereFile SphereFinisher::finish(const RoundingLoss& of_whole) {
   return file;
 }
 
-Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options) {
+Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options,
+                                  bool may_be_empty) {
   SphereFinisher steps(std::move(raw), name, options);
   const auto count = static_cast<std::int64_t>(steps.raw().size());
-  if (Status status = steps.begin(0, count); !status) return status.error();
+  const bool is_empty = count == 0 && may_be_empty;
+  if (Status status = is_empty ? Status(Done{}) : steps.begin(0, count); !status) return status.error();
   if (!steps.has_radii()) {
     const std::int64_t unknown = count_unknown_radii(steps.raw());
     const bool guesses = unknown > 0 && !steps.raw().unknown_radius;
     steps.fill_radii({unknown, count, guesses ? radius_from_neighbours(steps.raw()) : std::nullopt});
   }
   if (Status status = steps.apply_options(); !status) return status.error();
-  if (options.recenter) steps.recenter(steps.centre_ends());
+  if (options.recenter && !is_empty) steps.recenter(steps.centre_ends());
   const Result<RoundingLoss> loss = steps.round(0);
   if (!loss) return loss.error();
   return steps.finish(*loss);

@@ -13,8 +13,10 @@
 namespace bihive {
 
 /// Gives radii to spheres without radii (io/assemble/unknown_radii.h), applies the options, and rounds once. `name` is
-/// the file's, for messages. Errors: no spheres; a number that is not finite, out of range, or a negative radius.
-Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options);
+/// the file's, for messages. Errors: no spheres, unless the set may be empty; a number that is not finite, out of
+/// range, or a negative radius.
+Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options,
+                                  bool may_be_empty = false);
 
 /// The centres that rounding moves by more than is harmless, and the radii that it makes to points.
 struct RoundingLoss {

@@ -11,6 +11,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/io/frames.h"
+#include "bihive/io/frames/frame_names.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/io/trajectory.h"
@@ -52,6 +53,7 @@ class SphereFrames : public Frames {
   mutable std::mutex first_radius_lock_;
   mutable bool first_radius_is_known_ = false;
   mutable std::optional<double> first_radius_;
+  mutable FrameNames names_;
 };
 
 }  // namespace bihive
