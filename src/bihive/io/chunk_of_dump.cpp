@@ -30,6 +30,27 @@ bool can_be_divided(std::string_view columns) {
   return true;
 }
 
+// Whether the ids of these lines increase, if there are ids. A dump that LAMMPS did not sort shows it at once.
+bool ids_increase(std::string_view columns, std::string_view lines) {
+  TextScanner header(columns, "");
+  header.next_line();
+  std::int64_t before_id = 0;
+  std::string_view field;
+  for (bool found = false; !found; ++before_id) {
+    if (!header.next_field(field)) return true;
+    found = lower_case(field) == "id";
+  }
+  TextScanner scanner(lines, "");
+  std::optional<double> last;
+  while (scanner.next_line()) {
+    for (std::int64_t i = 0; i < before_id; ++i) scanner.next_field(field);
+    const std::optional<double> id = parse_double(field);
+    if (last && id && !(*last < *id)) return false;
+    last = id;
+  }
+  return true;
+}
+
 // Nothing: it does not begin so.
 std::optional<DumpHead> head_of(const RandomFile& file) {
   const Result<std::string> bytes = file.read(0, std::min(kDumpHeadBytes, file.size()));
@@ -56,6 +77,7 @@ std::optional<DumpHead> head_of(const RandomFile& file) {
       const std::string_view rest = std::string_view(*bytes).substr(at);
       const auto lines = std::count(rest.begin(), rest.end(), '\n');
       if (lines == 0) return std::nullopt;
+      head.ids_increase = ids_increase(words.substr(11), rest.substr(0, rest.rfind('\n') + 1));
       head.line_bytes = static_cast<double>(rest.rfind('\n') + 1) / static_cast<double>(lines);
       head.atoms = *atoms;
       head.end = static_cast<std::int64_t>(at);
@@ -86,7 +108,7 @@ std::int64_t lines_in(std::string_view text) {
 
 std::optional<std::int64_t> atoms_in_chunks(const RandomFile& file) {
   const std::optional<DumpHead> head = head_of(file);
-  if (!head) return std::nullopt;
+  if (!head || !head->ids_increase) return std::nullopt;
   const double expected = static_cast<double>(head->atoms) * head->line_bytes;
   if (static_cast<double>(file.size() - head->end) >= kMostOfLines * expected) return std::nullopt;
   return head->atoms;

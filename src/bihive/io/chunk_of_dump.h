@@ -13,7 +13,7 @@
 namespace bihive {
 
 /// The atoms of a file that begins as a dump, no column of which needs all rows (io/sphere_table.h), and that is as
-/// large as one frame alone makes it. Nothing: chunks of it cannot be read.
+/// large as one frame alone makes it, with ids in order. Nothing: chunks of it cannot be read.
 std::optional<std::int64_t> atoms_in_chunks(const RandomFile& file);
 
 /// The lines before the atoms, around the one that states their number.
@@ -21,8 +21,9 @@ struct DumpHead {
   std::string before_count, after_count;
   std::int64_t atoms = 0;
   std::int64_t lines = 0, count_line = 0;
-  std::int64_t end = 0;   ///< where the first atom begins
-  double line_bytes = 0;  ///< of the first atoms, in the mean
+  std::int64_t end = 0;      ///< where the first atom begins
+  double line_bytes = 0;     ///< of the first atoms, in the mean
+  bool ids_increase = true;  ///< those of the first atoms
 };
 
 /// The atoms whose lines begin in a chunk of the bytes.

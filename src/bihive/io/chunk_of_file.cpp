@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "bihive/io/packed/binary_number.h"
 #include "bihive/io/packed/random_file.h"
 #include "bihive/io/raw_spheres.h"
+#include "bihive/io/text/text_scanner.h"
 #include "bihive/io/without_throwing.h"
 
 namespace bihive {
@@ -201,6 +203,24 @@ std::optional<double> columns_of(const RawSpheres& spheres) {
   if (!attributes.opacity.empty()) columns += "opacity ";
   for (const NamedNumbers& column : attributes.numbers) columns += "/" + column.name;
   return static_cast<double>(std::hash<std::string>()(columns) >> 12);
+}
+
+std::vector<double> ids_of(const RawSpheres& chunk) {
+  std::vector<double> facts{static_cast<double>(chunk.ids)};
+  if (chunk.ids == RowIds::in_order)
+    for (const NamedNumbers& column : chunk.attributes.numbers)
+      if (lower_case(column.name) == "id") facts.insert(facts.end(), {column.values.front(), column.values.back()});
+  return facts;
+}
+
+bool ids_increase(const std::vector<std::vector<double>>& of_chunks) {
+  double last = -std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& facts : of_chunks) {
+    if (facts[0] == static_cast<double>(RowIds::none)) continue;
+    if (facts.size() < 3 || !(last < facts[1])) return false;
+    last = facts[2];
+  }
+  return true;
 }
 
 }  // namespace bihive

@@ -35,4 +35,10 @@ Result<FileChunk> open_chunk(const std::string& path, RowChunk chunk);
 /// Equal for chunks of the same columns, all of which are numbers; nothing: some are texts.
 std::optional<double> columns_of(const RawSpheres& spheres);
 
+/// Facts about a chunk's ids for ids_increase().
+std::vector<double> ids_of(const RawSpheres& chunk);
+/// Whether the chunks of a file with these facts, one after the other, are chunks of the set, whose spheres are in the
+/// order of their ids.
+bool ids_increase(const std::vector<std::vector<double>>& of_chunks);
+
 }  // namespace bihive

@@ -37,6 +37,8 @@ struct FramesOptions {
   /// it for this file as it is now (docs/formats.md). An index of no use is replaced, with a warning; one that cannot
   /// be written, or that another user may have written, is a warning too, and so is another file in its place.
   bool keep_index = false;
+  /// A frame without spheres is an empty set, not an error.
+  bool empty_frames = false;
 };
 
 /// Opens the file of any format that read_spheres() reads, or its trajectory (`options.trajectory`). `options.frame` is

@@ -13,9 +13,17 @@
 
 namespace bihive {
 
-/// Centres in the file's own length unit, in file order. They are finite: the reader checks that, because it knows the
-/// line. `r` is either empty (the file gives no radii) or has one finite radius >= 0 for each sphere. Attributes as in
-/// SphereSet.
+/// What a column `id` says about the rows of a file (io/text/id_order.h).
+enum class RowIds {
+  none,      ///< the format has none, or the file; rows are spheres in file order
+  in_order,  ///< each row has its own, and they increase
+  sorted,    ///< the same in another order: the spheres are in that of ids
+  repeated,  ///< rows share one: the order of the file is kept
+};
+
+/// Centres in the file's own length unit, in file order, or by id where rows have ids. They are finite: the reader
+/// checks that, because it knows the line. `r` is either empty (the file gives no radii) or has one finite radius >= 0
+/// for each sphere. Attributes as in SphereSet.
 struct RawSpheres {
   std::string format;  ///< as in SphereFile
   std::vector<double> x, y, z, r;
@@ -26,6 +34,7 @@ struct RawSpheres {
   std::optional<double> time_ps;     ///< picoseconds
   std::optional<std::int64_t> step;  ///< of the simulation
   std::int64_t frames = 1;
+  RowIds ids = RowIds::none;
   std::vector<std::string> rules;     ///< what the reader did, one sentence each
   std::vector<std::string> warnings;  ///< what the user should know, one line each
 

@@ -112,7 +112,21 @@ void LookOptions::hide_word(const std::string& id, const std::string& word) {
   current_ = looks.size() - 1;
 }
 
-void look(LoadedScene& input, const LookOptions& options, const std::vector<ColourRange>& ranges) {
+namespace {
+
+// None is left to be seen.
+void remove_spheres(Scene& scene) {
+  scene.spheres = {};
+  scene.material_of_sphere.clear();
+  scene.id_in_input.clear();
+  scene.coloured_by.clear();
+  scene.coloured_by_of_sphere.clear();
+}
+
+}  // namespace
+
+void look(LoadedScene& input, const LookOptions& options, const std::vector<ColourRange>& ranges, bool may_be_empty) {
+  if (may_be_empty && input.scene.spheres.empty()) return;
   if (!options.element_colours.empty()) recolour(input, options.element_colours);
   std::vector<Look> looks = input.looks;
   for (Look one : options.looks) {
@@ -136,6 +150,7 @@ void look(LoadedScene& input, const LookOptions& options, const std::vector<Colo
   const std::size_t own = input.looks.size();
   if (!counts) {
     const Error& error = counts.error();
+    if (failed == looks.size() && may_be_empty) return remove_spheres(input.scene);
     if (failed == looks.size()) fail_usage(error.message, error.hint);
     if (failed < own) {
       const std::string place = error.column > 0 ? "/select: column " + std::to_string(error.column) : "";

@@ -50,8 +50,10 @@ using ColourRange = std::optional<std::pair<double, double>>;
 /// Sets element colours, applies the input's own looks, then these. Fails with kBadInput on a file of colours that
 /// cannot be read. Fails with kBadUsage on a selection or action that does not fit the input.
 /// Warns of a --select without spheres. `ranges`: for each action that colours by an attribute, in their order, those
-/// of the input first; they replace ranges that the action leaves open.
-void look(LoadedScene& input, const LookOptions& options, const std::vector<ColourRange>& ranges = {});
+/// of the input first; they replace ranges that the action leaves open. `may_be_empty`: a scene without spheres stays
+/// as it is, and one whose spheres are all hidden gets none; else the latter is an error.
+void look(LoadedScene& input, const LookOptions& options, const std::vector<ColourRange>& ranges = {},
+          bool may_be_empty = false);
 
 /// The ranges by which look() has coloured the input, for its last argument; nothing if colours mean categories. And
 /// that of the style with which the input was loaded.

@@ -12,9 +12,11 @@
 #include "bihive/job/choose_labels.h"
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/messages.h"
 #include "bihive/job/title_values.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
+#include "bihive/scene/legend.h"
 #include "bihive/scene/title_text.h"
 #include "bihive/settings/check_picture.h"
 #include "bihive/settings/picture_report.h"
@@ -67,7 +69,7 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   if (user.has("length_unit") && !settings.labels.scale_bar)
     fail_setting("length_unit", " is for the scale bar, and the picture has none",
                  "add " + setting_name("scale_bar") + ", or leave it out");
-  if (user.is_on("cell") && !scene.spheres.cell())
+  if (user.is_on("cell") && !scene.spheres.cell() && !scene.spheres.empty())
     fail({"there is no periodic cell that " + setting_name("cell") + " could draw", request.input.input, 0, 0,
           "give one with " + setting_name("cell_vectors")});
   if (user.is_on("cell") && request.view != View::shaded)
@@ -126,7 +128,8 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   PictureSettings& picture = input.scene.picture;
   if (const SettingValue* const transfer = request.picture.find("transfer"))
     parameter_named("transfer")->set(picture, *transfer);
-  look(input, request.looks, request.fixed ? request.fixed->ranges_of_looks : std::vector<ColourRange>{});
+  const bool is_of_film = request.fixed.has_value();
+  look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
   RenderSettings settings = apply_options(request, input, whole);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",
@@ -137,6 +140,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (input.scene.spheres.has_images() && has_clips(input.scene))
     fail_setting("clip", " does not cut the copies of " + setting_name("replicate"), "leave one of them out");
   if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
+  if (const std::string shared = shared_colours(input.scene); !shared.empty() && whole == nullptr) warn(shared);
   return settings;
 }
 

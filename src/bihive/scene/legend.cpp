@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "bihive/io/elements.h"
+#include "bihive/scene/palette.h"
 #include "bihive/select/attribute_names.h"
 #include "bihive/select/number_term.h"
 
@@ -45,6 +47,30 @@ class CategoryNames {
 FoundAttribute attribute_of(const SphereSet& spheres, const ColourBy& how) {
   const Result<FoundAttribute> found = find_numbers(spheres, how.attribute);
   return found ? *found : FoundAttribute();
+}
+
+// Types in a row that differ in colour.
+std::size_t type_colour_count() {
+  static const std::size_t count = [] {
+    std::int32_t types = 1;
+    while (!(type_colour(1 + types) == type_colour(1))) ++types;
+    return static_cast<std::size_t>(types);
+  }();
+  return count;
+}
+
+// Whether there may be more categories than colours: a bound that costs at most a pass over numbers.
+bool may_share_colours(const SphereSet& spheres, const ColourBy& how) {
+  const FoundAttribute attribute = attribute_of(spheres, how);
+  if (how.range || !attribute.found() || attribute.is_element()) return false;
+  if (!attribute.has_numbers()) return attribute.texts->texts.size() > type_colour_count();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const double number = attribute.number_of(spheres, id);
+    low = std::min(low, number);
+    high = std::max(high, number);
+  }
+  return std::floor(high) - std::floor(low) >= static_cast<double>(type_colour_count());
 }
 
 // Collects the spheres of one key.
@@ -119,6 +145,29 @@ std::vector<std::int64_t> spheres_of_legend(const Scene& scene) {
   for (const KeyCollector& collector : collected(scene))
     ids.insert(ids.end(), collector.spheres().begin(), collector.spheres().end());
   return ids;
+}
+
+std::string shared_colours(const Scene& scene) {
+  if (std::none_of(scene.coloured_by.begin(), scene.coloured_by.end(),
+                   [&](const ColourBy& how) { return may_share_colours(scene.spheres, how); }))
+    return "";
+  constexpr std::size_t kMostNamed = 3;
+  for (const LegendKey& key : legend_of(scene)) {
+    if (key.scale || key.title == "element") continue;
+    std::string named;
+    std::size_t shared = 0;
+    for (auto entry = key.entries.begin(); entry != key.entries.end(); ++entry) {
+      const auto first = std::find_if(key.entries.begin(), entry,
+                                      [&](const LegendEntry& other) { return other.colour == entry->colour; });
+      if (first == entry || ++shared > kMostNamed) continue;
+      named += (named.empty() ? "" : ", ") + entry->name + " that of " + first->name;
+    }
+    if (shared > 0)
+      return "there are " + std::to_string(type_colour_count()) + " colours for categories, and some of " + key.title +
+             " share one: " + named +
+             (shared > kMostNamed ? " and " + std::to_string(shared - kMostNamed) + " more" : "");
+  }
+  return "";
 }
 
 Vec3d screen_colour(Vec3d linear, Transfer transfer) {

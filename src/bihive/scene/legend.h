@@ -40,6 +40,9 @@ std::vector<LegendKey> legend_of(const Scene& scene);
 /// Spheres that give the legend of all: the first of each entry, in any order.
 std::vector<std::int64_t> spheres_of_legend(const Scene& scene);
 
+/// A sentence on categories that share a colour because there are more of them than colours; empty: there are none.
+std::string shared_colours(const Scene& scene);
+
 /// The screen value of linear light under a transfer, 0 to 1.
 Vec3d screen_colour(Vec3d linear, Transfer transfer);
 

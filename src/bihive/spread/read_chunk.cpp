@@ -45,6 +45,9 @@ Result<RawSpheres> read_rows(const std::string& path, Communicator& ranks) {
   const Counts rows = sum_over_ranks(chunk->rows, ranks);
   Result<RawSpheres> spheres = chunk->read(rows.before, rows.all);
   if (!spheres || !chunk->columns_may_differ) return spheres;
+  if (!ids_increase(ranks.all_gather_list(ids_of(*spheres))))
+    return Error{"chunks of this file can be read only if its rows are in the order of their ids", path, 0, 0,
+                 "leave out " + setting_name("distribute") + ", or sort the rows (LAMMPS: dump_modify ID sort id)"};
   const std::optional<double> columns = columns_of(*spheres);
   if (are_alike({columns.value_or(-1)}, ranks) && columns) return spheres;
   return Error{"chunks of this file can be read only if all columns are numbers, and types whole ones", path, 0, 0,

@@ -20,6 +20,9 @@ namespace {
 // Three coordinates and a radius as they are read, and as they are kept.
 constexpr double kRadiusBytes = sizeof(double), kReadBytes = 4 * sizeof(double), kSetBytes = 4 * sizeof(float);
 
+// The first frame's origin fits another one as long as its extent about it is at most so large.
+constexpr double kMostOfOwnExtent = 4;
+
 // Such a set takes 3 MB. Its tree decides whether it fits.
 constexpr std::int64_t kSmallSet = 1 << 16;
 
@@ -183,21 +186,28 @@ SphereFile SphereFinisher::finish(const RoundingLoss& of_whole) {
   return file;
 }
 
-Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options) {
+Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options,
+                                  bool may_be_empty, const std::function<Vec3d()>& origin_of_first_frame) {
   SphereFinisher steps(std::move(raw), name, options);
   const auto count = static_cast<std::int64_t>(steps.raw().size());
-  if (Status status = steps.begin(0, count); !status) return status.error();
+  const bool is_empty = count == 0 && may_be_empty;
+  if (Status status = is_empty ? Status(Done{}) : steps.begin(0, count); !status) return status.error();
   if (!steps.has_radii()) {
     const std::int64_t unknown = count_unknown_radii(steps.raw());
     const bool guesses = unknown > 0 && !steps.raw().unknown_radius;
     steps.fill_radii({unknown, count, guesses ? radius_from_neighbours(steps.raw()) : std::nullopt});
   }
   if (Status status = steps.apply_options(); !status) return status.error();
-  if (options.recenter) steps.recenter(steps.centre_ends());
+  if (options.recenter && !is_empty) steps.recenter(steps.centre_ends());
   const Result<WorldEnds> ends = steps.ends();
   if (!ends) return ends.error();
-  const bool coarse = steps.is_coarse_about_zero(ends->extent());
-  const Result<RoundingLoss> loss = steps.round(*ends, coarse ? ends->origin() : Vec3d{});
+  Vec3d origin;
+  if (steps.is_coarse_about_zero(ends->extent())) {
+    origin = ends->origin();
+    const Vec3d first = origin_of_first_frame ? origin_of_first_frame() : Vec3d{};
+    if (first != Vec3d{} && ends->extent(first) <= kMostOfOwnExtent * ends->extent(origin)) origin = first;
+  }
+  const Result<RoundingLoss> loss = steps.round(*ends, origin);
   if (!loss) return loss.error();
   return steps.finish(*loss);
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "bihive/base/result.h"
@@ -14,8 +15,11 @@
 namespace bihive {
 
 /// Gives radii to spheres without radii (io/assemble/unknown_radii.h), applies the options, and rounds once. `name` is
-/// the file's, for messages. Errors: no spheres; a number that is not finite, out of range, or a negative radius.
-Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options);
+/// the file's, for messages. Errors: no spheres, unless the set may be empty; a number that is not finite, out of
+/// range, or a negative radius. `origin_of_first_frame`: of another frame of the file, called if this one needs an
+/// origin.
+Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const ReadOptions& options,
+                                  bool may_be_empty = false, const std::function<Vec3d()>& origin_of_first_frame = {});
 
 /// The steps of finish_spheres(), in this order, for a chunk of a set that several processes read: what a step must
 /// know of the whole set is handed in. `first`, `all`: the spheres of the chunks before, and of all.

@@ -1,6 +1,7 @@
 #include "bihive/io/frames/sphere_frames.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "bihive/io/assemble/finish.h"
 #include "bihive/io/assemble/unknown_radii.h"
@@ -125,9 +126,20 @@ std::optional<double> SphereFrames::radius_of_first_frame() const {
   return first_radius_;
 }
 
+// All frames have one origin, unless the spheres go far away from it.
+Vec3d SphereFrames::origin_of_first_frame() const {
+  const std::lock_guard<std::mutex> lock(first_origin_lock_);
+  if (!first_origin_)
+    if (const Result<SphereFile> first = read(0)) first_origin_ = first->spheres.origin();
+  if (!first_origin_) first_origin_.emplace();
+  return *first_origin_;
+}
+
 Result<SphereFile> SphereFrames::made_of(RawSpheres raw, std::int64_t frame) const {
   if (is_moved())
     if (Status status = take_places(frame, raw); !status) return status.error();
+  if (!is_moved() && raw.frames > 1)
+    names_.put_in_order(frame, raw, [this](std::int64_t other) { return frames_->read(other); });
   if (frames_->may_be_cut()) raw.warnings.push_back("the last line of " + name_ + " has no end: the file may be cut");
   if (!options_.assembly.empty())
     if (Status status = expand_assembly(raw, options_.assembly, name_); !status) return status.error();
@@ -136,7 +148,12 @@ Result<SphereFile> SphereFrames::made_of(RawSpheres raw, std::int64_t frame) con
                              [](const NamedTexts& column) { return column.name == kAssemblyChains; }),
               texts.end());
   if (!is_moved() && frame != 0 && !options_.radius && lacks_radii(raw)) raw.unknown_radius = radius_of_first_frame();
-  return finish_spheres(std::move(raw), name_, options_);
+  if (raw.size() == 0 && raw.frames > 1 && !of_frames_.empty_frames)
+    return Error{"there are no spheres in frame " + std::to_string(frame) + " (read as " + raw.format + ")", name_, 0,
+                 0, ""};
+  std::function<Vec3d()> origin;
+  if (frame != 0) origin = [this] { return origin_of_first_frame(); };
+  return finish_spheres(std::move(raw), name_, options_, of_frames_.empty_frames, origin);
 }
 
 }  // namespace bihive

@@ -11,6 +11,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/io/frames.h"
+#include "bihive/io/frames/frame_names.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/io/trajectory.h"
@@ -39,6 +40,7 @@ class SphereFrames : public Frames {
   Result<SphereFile> made_of(RawSpheres raw, std::int64_t frame) const;
   Status take_places(std::int64_t frame, RawSpheres& raw) const;
   std::optional<double> radius_of_first_frame() const;
+  Vec3d origin_of_first_frame() const;
 
   std::string name_;
   ReadOptions options_;
@@ -52,6 +54,10 @@ class SphereFrames : public Frames {
   mutable std::mutex first_radius_lock_;
   mutable bool first_radius_is_known_ = false;
   mutable std::optional<double> first_radius_;
+  // For spheres far from 0; found when it is asked for.
+  mutable std::mutex first_origin_lock_;
+  mutable std::optional<Vec3d> first_origin_;
+  mutable FrameNames names_;
 };
 
 }  // namespace bihive

@@ -10,6 +10,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/io/column_choice.h"
 #include "bihive/io/raw_spheres.h"
+#include "bihive/io/text/id_order.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -95,6 +96,9 @@ class SphereTable {
   void colours_are_bytes() { colours_are_bytes_ = true; }
   /// Checks the number of fields of a line that is otherwise skipped.
   Status check_width(const TextScanner& scanner) const;
+
+  /// Brings the rows into the order of the numbers in a column `id`, in upper or lower case, if each row has its own.
+  IdOrder sort_by_id();
 
   /// The spheres, without `format`. Colours are linear, 0 to 1; if any part is above 1, all are sRGB, 0 to 255.
   RawSpheres take() &&;

@@ -43,6 +43,20 @@ std::vector<double> SphereTable::take_values(ColumnRole role) {
   return column ? std::move(column->values) : std::vector<double>();
 }
 
+IdOrder SphereTable::sort_by_id() {
+  const auto ids = std::find_if(columns_.begin(), columns_.end(), [](const Column& column) {
+    return column.role == ColumnRole::number && !column.is_text && lower_case(column.name) == "id";
+  });
+  if (ids == columns_.end()) return {};
+  IdOrder order = order_of_ids(ids->values);
+  if (order.kind != RowIds::sorted) return order;
+  for (Column& column : columns_) {
+    if (!column.values.empty()) put_in_order(column.values, order.rows);
+    if (!column.labels.texts().empty()) put_in_order(column.labels, order.rows);
+  }
+  return order;
+}
+
 RawSpheres SphereTable::take() && {
   RawSpheres spheres;
   spheres.x = take_values(ColumnRole::x);

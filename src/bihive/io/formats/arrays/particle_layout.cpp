@@ -124,6 +124,22 @@ Status take_vectors(const ArrayFile& file, const ParticleLayout& layout, std::in
   return Done{};
 }
 
+// Places of atoms that have ids come in the order of these, as the atoms of their file do.
+Status sort_by_id(const ArrayFile& file, const ParticleLayout& layout, std::int64_t frame, TrajectoryFrame& made) {
+  for (const ParticleColumn& column : layout.columns) {
+    if (lower_case(column.name) != "id") continue;
+    const Result<std::vector<double>> ids = numbers_at(file, column.of, frame);
+    if (!ids) return ids.error();
+    if (ids->size() != made.x.size()) continue;
+    const IdOrder order = order_of_ids(*ids);
+    if (order.kind != RowIds::sorted) return Done{};
+    for (std::vector<double>* const values : {&made.x, &made.y, &made.z}) put_in_order(*values, order.rows);
+    for (NamedNumbers& numbers : made.numbers) put_in_order(numbers.values, order.rows);
+    return Done{};
+  }
+  return Done{};
+}
+
 // Labels of numbers, as HDF5's enumerations have: elements if one is an element, and texts.
 void take_labels(const std::vector<std::pair<double, std::string>>& labels, const std::vector<double>& values,
                  SphereAttributes& attributes) {
@@ -214,7 +230,10 @@ Result<RawSpheres> read_particles(const ArrayFile& file, const ParticleLayout& l
                    file.path(), 0, 0, about_fill(layout)};
   }
   const std::string names = table.column_names();
+  const IdOrder order = table.sort_by_id();
   RawSpheres spheres = std::move(table).take();
+  note_id_order(order, file.path(), std::nullopt, spheres);
+  if (order.kind == RowIds::sorted && labelled != nullptr) put_in_order(labelled_values, order.rows);
   spheres.format = layout.format;
   spheres.frames = frame_count(layout);
   spheres.rules.insert(spheres.rules.begin(), "arrays as columns: " + names);
@@ -242,6 +261,7 @@ Result<TrajectoryFrame> read_places(const ArrayFile& file, const ParticleLayout&
   }
   if (Status status = take_cell_of(file, layout, frame, made); !status) return status.error();
   if (Status status = take_vectors(file, layout, frame, made); !status) return status.error();
+  if (Status status = sort_by_id(file, layout, frame, made); !status) return status.error();
   if (Status status = take_when(file, layout, frame, made); !status) return status.error();
   return made;
 }

@@ -267,7 +267,9 @@ class LammpsDataReader {
         return scanner_.line_error("expected " + std::to_string(*count_) + " atoms but found " + std::to_string(i));
       if (Status row = table.add_row(scanner_); !row) return row;
     }
+    const IdOrder order = table.sort_by_id();
     RawSpheres taken = std::move(table).take();
+    note_id_order(order, scanner_.file(), std::nullopt, taken);
     taken.format = std::move(spheres_.format);
     taken.step = spheres_.step;
     taken.rules.insert(taken.rules.begin(), spheres_.rules.begin(), spheres_.rules.end());

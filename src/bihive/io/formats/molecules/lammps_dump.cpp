@@ -193,6 +193,7 @@ class LammpsReader {
     const bool wanted = frames_ == wanted_;
     if (wanted) table.reserve(*count_, scanner_.bytes_left());
     std::int64_t found = 0;
+    const std::int64_t first_line = scanner_.line_number() + 1;
     if (wanted) {
       const Result<std::int64_t> rows = table.add_rows(scanner_, *count_, SphereTable::RowLines::all);
       if (!rows) return rows.error();
@@ -205,7 +206,9 @@ class LammpsReader {
       return cut(std::to_string(*count_) + " atoms (line " + std::to_string(count_line_) + ") but found " +
                  std::to_string(found));
     if (wanted) {
+      const IdOrder order = table.sort_by_id();
       spheres_ = std::move(table).take();
+      note_id_order(order, scanner_.file(), first_line, spheres_);
       spheres_.rules.insert(spheres_.rules.begin(), naming->rule);
       if (naming->scaled) unscale();
       spheres_.cell = box_;

@@ -209,6 +209,7 @@ Result<RawSpheres> read_xyz(const TextScanner& text, const FramePass& pass) {
     const bool wanted = frames == frame;
     if (wanted) table->reserve(*count, scanner.bytes_left());
     std::int64_t found = 0;
+    const std::int64_t first_line = scanner.line_number() + 1;
     if (wanted) {
       const Result<std::int64_t> rows = table->add_rows(scanner, *count, SphereTable::RowLines::all);
       if (!rows) return rows.error();
@@ -220,7 +221,9 @@ Result<RawSpheres> read_xyz(const TextScanner& text, const FramePass& pass) {
     if (found < *count) return cut(found);
     if (!wanted) continue;
     const std::string columns = table->column_names();
+    const IdOrder order = table->sort_by_id();
     spheres = std::move(*table).take();
+    note_id_order(order, scanner.file(), first_line, spheres);
     spheres.cell = cell;
     spheres.rules.insert(spheres.rules.begin(), "columns: " + columns);
     take_when_of(comment, spheres);
