@@ -24,6 +24,7 @@ import fcntl
 import http.client
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -140,8 +141,8 @@ def inputs():
 
 def is_whole(name, data):
     """Whether a file of the thesis's report, or of a film, is no part of one. The next run of `film` cuts off what stands
-    after the last whole picture of its .y4m, and after the last whole line of an index."""
-    if name in ("a.y4m.part/lock", "a.y4m.part/film.y4m", "out/film.index"):
+    after the last whole picture of its .y4m, and after the last whole line of an index; each rank has its own."""
+    if name in ("a.y4m.part/lock", "a.y4m.part/film.y4m") or re.fullmatch(r"out/film(\.\d+-\d+)?\.index", name):
         return True
     ending = os.path.splitext(name)[1]
     if ending == ".json":
