@@ -264,6 +264,9 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
                        "Read all frames: numbers of spheres, ranges of positions, cell, time, step and\n"
                        "numbers");
   frames->excludes(attributes);
+  command.add_flag("--trees", options.trees, "Predict the memory of the trees too, and name the instruction set")
+      ->excludes(attributes)
+      ->excludes(frames);
   command.add_flag("--keep-index", options.keep_index, "Text: keep the offsets of the frames in FILE.bihive-index")
       ->needs(frames);
   add_tree_options(command, options.tree);

@@ -89,6 +89,40 @@ class Info(ProgramTest):
         self.assertTrue(held["allocated_bytes"] <= predicted["allocated_bytes"]["high"])
         self.assertTrue(predicted["compact_bytes"]["low"] <= held["bytes"]["total"] <= predicted["compact_bytes"]["high"])
 
+    def test_chains_residues_and_ligands(self):
+        # Counted here by the columns of the format.
+        with open(os.path.join(os.environ["BIHIVE_SOURCE"], "data", "1hpv.pdb"), encoding="ascii") as file:
+            atoms = [line for line in file if line.startswith(("ATOM", "HETATM"))]
+        residues = {(line[21], line[22:27], line[17:20].strip()) for line in atoms}
+        water = {residue for residue in residues if residue[2] == "HOH"}
+        ligand = {residue for residue in residues if residue[2] == "478"}
+        info = self.succeed_json("info", "demo")
+        of = {kind["name"]: kind["residues"] for kind in info["residues"]}
+        self.assertEqual(of, {"protein": len(residues - water - ligand), "water": len(water), "ligand": len(ligand)})
+        self.assertEqual([ligand["name"] for ligand in info["ligands"]], ["478"])
+        self.assertEqual({chain["name"]: chain["residues"] for chain in info["chains"]},
+                         {name.strip(): len({r for r in residues if r[0] == name}) for name in "AB "})
+        self.assertEqual(sum(chain["spheres"] for chain in info["chains"]), len(atoms))
+        said = self.succeed("info", "demo")
+        self.assertIn("\n  residues          protein 198, water 80, ligand 1\n", said)
+        for words in [["--trees"], ["--max-prims", "2"]]:
+            with_trees = self.succeed("info", "demo", *words)
+            self.assertTrue(with_trees.startswith(said), words)
+            self.assertIn("reference tree", with_trees)
+        self.assertNotIn("reference tree", said)
+
+    def test_times_and_molecules(self):
+        dump = "".join(f"ITEM: UNITS\nreal\nITEM: TIME\n{500 * k}\nITEM: TIMESTEP\n{k}\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n"
+                       "0 9\n0 9\n0 9\nITEM: ATOMS id mol x y z radius\n3 8 1 1 1 1\n1 7 2 2 2 1\n2 7 3 3 3 1\n" for k in range(4))
+        self.write("a.dump", dump)
+        info = self.succeed_json("info", "a.dump", "--frame", "1")
+        self.assertEqual((info["time_span_ps"], info["time_ps"], info["molecules"]), ([0, 1.5], 0.5, 2))
+        said = self.run_bihive("info", "a.dump").stdout
+        self.assertIn("\n  time span         0 to 1.5 ps in 4 frames\n", said)
+        self.assertIn("\n  molecules         2\n", said)
+        self.assertIn("order: by id", said)
+        self.assertIn("\n  order: by id", self.run_bihive("convert", "a.dump", "-o", "a.csv").stdout)
+
     def test_of_a_file_with_everything(self):
         self.write("a.csv", "x,y,z,radius,charge\n0,0,0,1,-2\n10,0,0,0,3\n0,5,0,2,4\n")
         info = self.succeed_json("info", "a.csv")

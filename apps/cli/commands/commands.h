@@ -121,6 +121,7 @@ struct InfoOptions {
   TreeParameters tree;
   bool attributes = false;  ///< only the attributes of spheres
   bool frames = false;      ///< the content of all frames
+  bool trees = false;       ///< in the text, the predicted memory of the trees too
   bool keep_index = false;  ///< the index of the frames, beside the file
   bool json = false;
 };

@@ -86,6 +86,8 @@ void report(const ConvertOptions& options, const OutputFormat& format, const Inp
   std::string text =
       fmt::format("{}: {} as {}, {}\n", escaped(options.output), grouped(count) + (count == 1 ? " sphere" : " spheres"),
                   format.shown, readable_bytes(double(bytes)));
+  for (const std::string& rule : input.rules)
+    if (rule.starts_with("order: ")) text += "  " + escaped(rule) + "\n";
   for (const std::string& one : left_out) text += "  not as it was: " + escaped(one) + "\n";
   print_report(text, {options.output});
 }

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/bih/memory.h"
+#include "bihive/io/frames.h"
 #include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
 #include "commands/commands.h"
+#include "commands/info_content.h"
 
 namespace bihive::cli {
 namespace {
@@ -60,6 +62,8 @@ struct Facts {
   Range radius{"radius"};
   std::int64_t zero_radii = 0;
   std::vector<Range> attributes;
+  Content content;
+  std::optional<std::pair<double, double>> time_span_ps;  // of the first and the last frame
   BuildParameters parameters;
   MemoryPrediction memory;
   WideMemoryPrediction wide_memory;
@@ -69,6 +73,7 @@ struct Facts {
         spheres(from.scene.spheres),
         bounds(spheres.bounds()),
         attributes(attribute_ranges(spheres.attributes())),
+        content(content_of(spheres)),
         parameters(tree.for_reference()),
         memory(predict_tree_memory(spheres.size(), parameters)),
         wide_memory(predict_wide_memory(spheres.size(), tree.for_wide(spheres.size()))) {
@@ -108,6 +113,18 @@ void print_json(const Facts& facts) {
   json["frames"] = facts.input.frames;
   json["time_ps"] = facts.input.time_ps ? ordered_json(*facts.input.time_ps) : ordered_json();
   json["step"] = facts.input.step ? ordered_json(*facts.input.step) : ordered_json();
+  json["time_span_ps"] =
+      facts.time_span_ps ? ordered_json{facts.time_span_ps->first, facts.time_span_ps->second} : ordered_json();
+  const auto counted = [](const std::vector<CountedName>& names) {
+    ordered_json list = ordered_json::array();
+    for (const CountedName& one : names)
+      list.push_back({{"name", one.name}, {"residues", one.residues}, {"spheres", one.spheres}});
+    return list;
+  };
+  json["chains"] = counted(facts.content.chains);
+  json["residues"] = counted(facts.content.kinds);
+  json["ligands"] = counted(facts.content.ligands);
+  json["molecules"] = facts.content.molecules ? ordered_json(*facts.content.molecules) : ordered_json();
   json["assemblies"] = facts.input.assemblies;
   json["rules"] = facts.input.rules;
   json["warnings"] = facts.input.warnings;
@@ -128,7 +145,18 @@ void print_json(const Facts& facts) {
   print(json.dump(2, ' ', true, ordered_json::error_handler_t::replace) + "\n");
 }
 
-void print_text(const Facts& facts) {
+// "A 99, B 99": the residues of each name, and how many names there are beyond the first.
+std::string text_of(const std::vector<CountedName>& names) {
+  constexpr std::size_t kMostShown = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostShown); ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", names[i].name.empty() ? "(none)" : names[i].name,
+                        grouped(names[i].residues));
+  if (names.size() > kMostShown) text += fmt::format(" and {} others", names.size() - kMostShown);
+  return text;
+}
+
+void print_text(const Facts& facts, bool with_trees) {
   const auto row = [](const std::string& name, const std::string& value) {
     print(fmt::format("  {:<18}{}\n", escaped(name), escaped(value)));
   };
@@ -141,6 +169,14 @@ void print_text(const Facts& facts) {
   };
   const Scene& scene = facts.input.scene;
   print(fmt::format("{}: {}, {} spheres\n", escaped(scene.name), facts.input.format, grouped(facts.spheres.size())));
+  if (facts.time_span_ps)
+    row("time span", fmt::format("{:.9g} to {:.9g} ps in {} frames", facts.time_span_ps->first,
+                                 facts.time_span_ps->second, grouped(facts.input.frames)));
+  const Content& content = facts.content;
+  if (!content.chains.empty()) row("chains", text_of(content.chains));
+  if (!content.kinds.empty()) row("residues", text_of(content.kinds));
+  if (!content.ligands.empty()) row("ligands and ions", text_of(content.ligands));
+  if (content.molecules) row("molecules", grouped(*content.molecules));
   const char* const axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) row(axes[axis], interval(facts.bounds.lo[axis], facts.bounds.hi[axis]));
   row("radius", interval(facts.radius.min, facts.radius.max));
@@ -168,11 +204,24 @@ void print_text(const Facts& facts) {
   const Vec3d shift = facts.input.recentred_by;
   if (shift != Vec3d{}) row("recentred by", fmt::format("{}, {}, {}", shift.x, shift.y, shift.z));
   row("spheres take", readable_bytes(static_cast<double>(facts.spheres.allocated_bytes())));
+  if (!with_trees) return;
   row("wide tree", bytes({facts.wide_memory.low_bytes, facts.wide_memory.high_bytes}) + ", about " +
                        readable_bytes(static_cast<double>(facts.wide_memory.peak_bytes)) + " while it is built");
   row("reference tree", bytes(facts.memory.allocated_bytes));
   row("", bytes(facts.memory.compact_bytes) + " with nodes of 12 bytes");
   row("instruction set", active_target());
+}
+
+// Times of the first and the last frame, where the file states them. Costs a pass over a text with many frames.
+std::optional<std::pair<double, double>> time_span_of(const InputOptions& options, const Input& input) {
+  if (input.frames < 2 || !input.time_ps || is_built_in_scene(options.input) || must_be_read_whole(options.input))
+    return std::nullopt;
+  const Result<std::shared_ptr<const Frames>> frames =
+      open_frames(options.input, options.reading.options(), {.empty_frames = true});
+  if (!frames) return std::nullopt;
+  const Result<SphereFile> first = (*frames)->read(0), last = (*frames)->read((*frames)->count() - 1);
+  if (!first || !last || !first->time_ps || !last->time_ps) return std::nullopt;
+  return std::pair{*first->time_ps, *last->time_ps};
 }
 
 }  // namespace
@@ -184,8 +233,10 @@ void run_info(const InfoOptions& options) {
   if (options.frames) return run_info_of_frames(options);
   const Input input = load_input(options.input);
   if (options.attributes) return print_attributes(input, options.json);
-  const Facts facts(input, options.tree);
-  (options.json ? print_json : print_text)(facts);
+  Facts facts(input, options.tree);
+  facts.time_span_ps = time_span_of(options.input, input);
+  if (options.json) return print_json(facts);
+  print_text(facts, options.trees || options.tree.max_prims || options.tree.max_depth);
 }
 
 }  // namespace bihive::cli

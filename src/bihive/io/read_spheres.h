@@ -39,7 +39,7 @@ struct ReadOptions {
 };
 
 struct SphereFile {
-  SphereSet spheres;                    ///< at least one sphere, in file order
+  SphereSet spheres;                    ///< at least one sphere, in file order or by id (docs/formats.md)
   std::string format;                   ///< "PDB", "PQR", "mmCIF", "XYZ", "GRO", "LAMMPS dump", "GSD", "CSV", "NPY"
   std::int64_t frames = 1;              ///< frames or models in the file
   std::vector<std::string> rules;       ///< what the reader did, a sentence each ("radii: van der Waals, by element")

@@ -1,0 +1,85 @@
+#include "commands/info_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bihive/select/selection.h"
+
+namespace bihive::cli {
+namespace {
+
+// Kinds of residues as selections know them.
+constexpr const char* kKinds[] = {"protein", "nucleic", "water", "ion", "ligand"};
+
+void count(std::vector<CountedName>& names, const std::string& name, bool begins_residue) {
+  auto found = std::find_if(names.begin(), names.end(), [&](const CountedName& one) { return one.name == name; });
+  if (found == names.end()) found = names.insert(names.end(), {name});
+  ++found->spheres;
+  found->residues += begins_residue ? 1 : 0;
+}
+
+// Whether a sphere is of another residue than the one before it.
+class ResidueBegins {
+ public:
+  explicit ResidueBegins(const SphereAttributes& attributes) : number_(attributes.find_numbers("resid")) {
+    for (const char* const name : {"chain", "entity", "insertion", "resname"})
+      if (const NamedTexts* const column = attributes.find_texts(name)) texts_.push_back(column);
+  }
+  bool operator()(std::size_t i) const {
+    if (i == 0) return true;
+    if (number_ != nullptr && number_->values[i] != number_->values[i - 1]) return true;
+    return std::any_of(texts_.begin(), texts_.end(), [i](const NamedTexts* column) {
+      return column->text_of_sphere[i] != column->text_of_sphere[i - 1];
+    });
+  }
+
+ private:
+  const NamedNumbers* number_;
+  std::vector<const NamedTexts*> texts_;
+};
+
+void count_residues(const SphereSet& spheres, Content& content) {
+  const NamedTexts* const names = spheres.attributes().find_texts("resname");
+  if (names == nullptr) return;
+  const ResidueBegins begins(spheres.attributes());
+  for (const std::string kind : kKinds) {
+    const Result<std::vector<std::uint8_t>> mask = select_spheres(spheres, kind);
+    if (!mask) continue;
+    for (std::size_t i = 0; i < mask->size(); ++i) {
+      if ((*mask)[i] == 0) continue;
+      count(content.kinds, kind, begins(i));
+      if (kind == "ion" || kind == "ligand") count(content.ligands, names->of(i), begins(i));
+    }
+  }
+}
+
+}  // namespace
+
+Content content_of(const SphereSet& spheres) {
+  Content content;
+  const SphereAttributes& attributes = spheres.attributes();
+  const ResidueBegins begins(attributes);
+  if (const NamedTexts* const chain = attributes.find_texts("chain")) {
+    std::vector<CountedName> of_text;
+    for (const std::string& name : chain->texts) of_text.push_back({name});
+    for (std::size_t i = 0; i < chain->text_of_sphere.size(); ++i) {
+      CountedName& one = of_text[static_cast<std::size_t>(chain->text_of_sphere[i])];
+      ++one.spheres;
+      one.residues += begins(i) ? 1 : 0;
+    }
+    for (const CountedName& one : of_text)
+      if (one.spheres > 0) content.chains.push_back(one);
+  }
+  count_residues(spheres, content);
+  for (const char* const name : {"mol", "molecule", "mol_id", "molecule_id"})
+    if (const NamedNumbers* const column = attributes.find_numbers(name); column != nullptr && !content.molecules) {
+      std::vector<double> numbers = column->values;
+      std::erase_if(numbers, [](double number) { return std::isnan(number); });
+      std::sort(numbers.begin(), numbers.end());
+      content.molecules = std::unique(numbers.begin(), numbers.end()) - numbers.begin();
+    }
+  return content;
+}
+
+}  // namespace bihive::cli

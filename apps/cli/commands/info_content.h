@@ -1,0 +1,27 @@
+// Chains, residues and molecules of an input, for `bihive info`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bihive/geometry/sphere_set.h"
+
+namespace bihive::cli {
+
+struct CountedName {
+  std::string name;
+  std::int64_t residues = 0, spheres = 0;
+};
+
+/// Residues are runs of spheres that agree in chain, number, insertion code and name.
+struct Content {
+  std::vector<CountedName> chains;        ///< in order of appearance
+  std::vector<CountedName> kinds;         ///< "protein", "nucleic", "water", "ion", "ligand": those that there are
+  std::vector<CountedName> ligands;       ///< by name of the residue, in order of appearance; ions too
+  std::optional<std::int64_t> molecules;  ///< distinct numbers of a column mol
+};
+Content content_of(const SphereSet& spheres);
+
+}  // namespace bihive::cli
