@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "bihive/base/result.h"
@@ -30,6 +31,8 @@ class SphereFinisher {
  public:
   SphereFinisher(RawSpheres raw, std::string name, const ReadOptions& options);
 
+  /// The cell as the options want it.
+  std::optional<Cell> cell() const;
   /// Gone after finish().
   const RawSpheres& raw() const { return raw_; }
   /// Error: the whole set has no spheres.
