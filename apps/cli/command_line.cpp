@@ -508,9 +508,27 @@ std::vector<std::string> words_of_film(const std::string& path, int argc, const 
   return words;
 }
 
+// --wrap is a flag, but for "--wrap molecules" and "--wrap=molecules", which are the flag --wrap-molecules.
+std::vector<const char*> with_plain_flags(int argc, const char* const* argv) {
+  std::vector<const char*> words;
+  bool options = true;
+  for (int i = 0; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    options = options && word != "--";
+    const bool two_words = word == "--wrap" && i + 1 < argc && std::string_view(argv[i + 1]) == "molecules";
+    const bool wraps_molecules = options && (two_words || word == "--wrap=molecules");
+    words.push_back(wraps_molecules ? "--wrap-molecules" : argv[i]);
+    if (wraps_molecules && two_words) ++i;
+  }
+  return words;
+}
+
 }  // namespace
 
-Request parse_command_line(int argc, const char* const* argv, const Describe& describe) {
+Request parse_command_line(int given_count, const char* const* given, const Describe& describe) {
+  const std::vector<const char*> plain = with_plain_flags(given_count, given);
+  const auto argc = static_cast<int>(plain.size());
+  const char* const* const argv = plain.data();
   Request request = parse_words(argc, argv, /*with_film=*/false, describe);
   const RenderOptions* const render = std::get_if<RenderOptions>(&request);
   if (render == nullptr) return request;

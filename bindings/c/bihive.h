@@ -43,6 +43,13 @@ typedef struct bihive_tree bihive_tree;
  * extent, wherever it is: far from 0 they count from an origin near its middle (docs/precision.md). Failures: a number
  * that is not finite or beyond 3.4e38, a negative radius, not enough memory. */
 BIHIVE_API int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree);
+/* The same for spheres that repeat along the vectors of a periodic cell: three times x, y, z; a vector of 0, 0, 0: not
+ * along it. bihive_nearest() and bihive_within() then see every image of a sphere, at any distance: under the sphere's
+ * id, which may occur several times, with the distance to the image. Rays meet the spheres alone. Vectors that lie in a
+ * plane or on a line, or are all 0, give no images. Failures: also a vector that is not finite, and later a limit that
+ * reaches more than a million images. */
+BIHIVE_API int bihive_tree_new_in_cell(const double* xyz, const double* radii, int64_t count, const double* vectors,
+                                       int threads, bihive_tree** tree);
 BIHIVE_API void bihive_tree_free(bihive_tree* tree);
 /* "", or a sentence: how many centres the rounding moved by more than 1 % of their radius, because the radii are too
  * small for the extent. Valid as long as the tree. */

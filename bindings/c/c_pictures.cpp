@@ -102,11 +102,14 @@ void set_option(bihive_scene& scene, const std::string& id, const char* value) {
   const auto before = scene.settings;
   const bool of_spheres = is_of_spheres(id);
   if (value == nullptr || row == nullptr || !row->repeatable)
-    std::erase_if(scene.settings,
-                  [&](const auto& one) { return one.first == id || (of_spheres && is_of_spheres(one.first)); });
+    std::erase_if(scene.settings, [&](const auto& one) {
+      return one.first == id || one.first == "no_" + id || (of_spheres && is_of_spheres(one.first));
+    });
   if (value == nullptr) return;
   if (row == nullptr || !is_off(*row, value))
     scene.settings.emplace_back(id, row && row->value_name.empty() ? "" : value);
+  else if (const std::string off = "no_" + id; picture_option(off) != nullptr)
+    scene.settings.emplace_back(off, "");
   try {
     request_of(scene);
   } catch (...) {
@@ -230,11 +233,13 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     }
     const RenderEngine engine = choose_engine(request);
     if (is_gpu(engine)) return failed("engine: bihive_render() draws on the CPU");
-    const bool changes_spheres = !request.looks.looks.empty() || !request.looks.element_colours.empty();
+    const bool periodic = request.input.reading.options().periodic;
+    const bool changes_spheres = !request.looks.looks.empty() || !request.looks.element_colours.empty() || !periodic;
     std::optional<LoadedScene> changed;
     put_light(scene->as_read, scene->loaded.scene);
     if (changes_spheres) changed = scene->loaded;
     LoadedScene& input = changed ? *changed : scene->loaded;
+    if (!periodic && input.scene.spheres.cell()) input.scene.spheres.cell()->periodic = {};
     const RenderSettings settings = prepare_picture(request, engine, input);
     value_or_fail(check_picture_memory(width, height));
 

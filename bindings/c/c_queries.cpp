@@ -3,6 +3,7 @@
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/wide/periodic_images.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/wide_builder.h"
@@ -20,6 +22,7 @@
 struct bihive_tree {
   std::shared_ptr<const bihive::WideTree> tree;
   std::string warning;
+  std::optional<bihive::PeriodicImages> images;
 };
 
 struct bihive_lists {
@@ -97,8 +100,40 @@ int check_point_arguments(const bihive_tree* tree, const double* xyz, std::int64
   return kDone;
 }
 
-PointOptions options_of(int distance_to, const std::uint8_t* mask, int threads) {
-  return {distance_to == BIHIVE_CENTRE ? DistanceTo::centre : DistanceTo::surface, mask, threads};
+PointOptions options_of(const bihive_tree& tree, int distance_to, const std::uint8_t* mask, int threads) {
+  return {distance_to == BIHIVE_CENTRE ? DistanceTo::centre : DistanceTo::surface, mask, threads,
+          tree.images ? &*tree.images : nullptr};
+}
+
+// `vectors`: of the cell, or null.
+int make_tree(const double* xyz, const double* radii, std::int64_t count, const double* vectors, int threads,
+              bihive_tree** tree) {
+  if (tree == nullptr) return failed("there is no place for the tree");
+  *tree = nullptr;
+  return guarded([&] {
+    if (count < 0) return failed("the number of spheres is negative");
+    if (count > 0 && (xyz == nullptr || radii == nullptr)) return failed("the spheres are NULL");
+    if (threads < 0) return failed("the number of threads is negative; 0 takes all");
+    std::string warning;
+    auto spheres = spheres_of(xyz, radii, count, &warning);
+    if (!spheres) return failed(spheres.error());
+    WideBuilder builder;
+    const auto built = builder.build(*spheres, {}, threads);
+    if (!built) return failed(built.error());
+    auto made = std::make_unique<bihive_tree>(bihive_tree{*built, std::move(warning), std::nullopt});
+    if (vectors != nullptr) {
+      Cell cell;
+      for (std::size_t i = 0; i < 9; ++i) cell.vectors[i / 3][static_cast<int>(i % 3)] = vectors[i];
+      for (const Vec3d& vector : cell.vectors)
+        if (!is_finite(vector)) return failed("the vectors of the cell must be finite");
+      spheres->cell() = cell;
+      auto images = PeriodicImages::of(*spheres, threads);
+      if (!images) return failed(images.error());
+      made->images = std::move(*images);
+    }
+    *tree = made.release();
+    return kDone;
+  });
 }
 
 }  // namespace
@@ -117,21 +152,13 @@ const char* bihive_error_text(void) {
 }
 
 int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree) {
-  if (tree == nullptr) return failed("there is no place for the tree");
-  *tree = nullptr;
-  return guarded([&] {
-    if (count < 0) return failed("the number of spheres is negative");
-    if (count > 0 && (xyz == nullptr || radii == nullptr)) return failed("the spheres are NULL");
-    if (threads < 0) return failed("the number of threads is negative; 0 takes all");
-    std::string warning;
-    const auto spheres = spheres_of(xyz, radii, count, &warning);
-    if (!spheres) return failed(spheres.error());
-    WideBuilder builder;
-    const auto built = builder.build(*spheres, {}, threads);
-    if (!built) return failed(built.error());
-    *tree = new bihive_tree{*built, std::move(warning)};
-    return kDone;
-  });
+  return make_tree(xyz, radii, count, nullptr, threads, tree);
+}
+
+int bihive_tree_new_in_cell(const double* xyz, const double* radii, int64_t count, const double* vectors, int threads,
+                            bihive_tree** tree) {
+  if (vectors == nullptr) return failed("the vectors of the cell are NULL");
+  return make_tree(xyz, radii, count, vectors, threads, tree);
 }
 
 void bihive_tree_free(bihive_tree* tree) {
@@ -171,8 +198,8 @@ int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, in
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     if (count > 0 && (distances == nullptr || spheres == nullptr)) return failed("there is no place for the spheres");
-    const auto nearest =
-        nearest_spheres(*tree->tree, PointSpan::rows(xyz, count), most, within, options_of(distance_to, mask, threads));
+    const auto nearest = nearest_spheres(*tree->tree, PointSpan::rows(xyz, count), most, within,
+                                         options_of(*tree, distance_to, mask, threads));
     if (!nearest) return failed(nearest.error());
     std::copy(nearest->distance.begin(), nearest->distance.end(), distances);
     std::copy(nearest->sphere_id.begin(), nearest->sphere_id.end(), spheres);
@@ -203,7 +230,7 @@ int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, con
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     const PointSpan points = PointSpan::rows(xyz, count);
-    const PointOptions options = options_of(distance_to, mask, threads);
+    const PointOptions options = options_of(*tree, distance_to, mask, threads);
     auto found = limits != nullptr ? spheres_within(*tree->tree, points, limits, options)
                                    : spheres_within(*tree->tree, points, 0.0, options);
     if (!found) return failed(found.error());

@@ -138,6 +138,28 @@ static void test_many_rays(const bihive_tree* tree) {
   free(spheres);
 }
 
+/* One sphere in the primitive cell of a face-centred cubic crystal: twelve neighbours, all of them its images. */
+static void test_cells(void) {
+  const double place[] = {0, 0, 0}, radius = 0.1;
+  const double vectors[] = {0, 1, 1, 1, 0, 1, 1, 1, 0}, limit = 1.5, infinite = INFINITY;
+  double broken[] = {1, 0, 0, 0, 1, 0, 0, 0, NAN};
+  double distances[13];
+  int64_t spheres[13];
+  bihive_lists* lists = NULL;
+  bihive_tree* tree = NULL;
+  EXPECT(bihive_tree_new_in_cell(place, &radius, 1, vectors, 0, &tree) == 0);
+  EXPECT(bihive_within(tree, place, 1, &limit, BIHIVE_CENTRE, NULL, 0, &lists) == 0);
+  if (lists != NULL) EXPECT(bihive_lists_begin(lists)[1] == 13 && bihive_lists_spheres(lists)[12] == 0);
+  bihive_lists_free(lists);
+  EXPECT(bihive_nearest(tree, place, 1, 13, INFINITY, BIHIVE_CENTRE, NULL, 0, distances, spheres) == 0);
+  EXPECT(distances[0] == 0 && distances[1] == sqrt(2) && distances[12] == sqrt(2) && spheres[12] == 0);
+  EXPECT_ERROR(bihive_within(tree, place, 1, &infinite, BIHIVE_CENTRE, NULL, 0, &lists), "million images");
+  bihive_tree_free(tree);
+  EXPECT_ERROR(bihive_tree_new_in_cell(place, &radius, 1, broken, 0, &tree), "finite");
+  EXPECT_ERROR(bihive_tree_new_in_cell(place, &radius, 1, NULL, 0, &tree), "NULL");
+  EXPECT(tree == NULL);
+}
+
 static void test_points(const bihive_tree* tree) {
   const double points[] = {4, 0, 0, 2, 0, 0, 6.5, 0, 0};
   const double limits[] = {-0.75, 1, 1};
@@ -259,6 +281,9 @@ static void test_pictures(void) {
   EXPECT_ERROR(bihive_scene_set(scene, "select", "x >"), "select: ");
   EXPECT_ERROR(bihive_scene_set(scene, "hide", "maybe"), "true or false");
   EXPECT_ERROR(bihive_scene_set(scene, "radius", "2"), "is for files");
+  EXPECT(bihive_scene_set(scene, "periodic", "false") == 0 && bihive_scene_set(scene, "periodic", "true") == 0);
+  EXPECT(bihive_scene_set(scene, "no_periodic", "true") == 0 && bihive_scene_set(scene, "no_periodic", NULL) == 0);
+  EXPECT(bihive_scene_set(scene, "periodic", NULL) == 0);
   EXPECT_ERROR(bihive_scene_set(scene, "radius_scale", "2"), "is for files");
   EXPECT_ERROR(bihive_scene_set(scene, "crop", "0,0,1,1"), "whole pictures");
   EXPECT(bihive_scene_set(scene, "view", "tree") == 0 && bihive_scene_set(scene, "max_prims", "1") == 0);
@@ -289,6 +314,7 @@ int main(int argc, char** argv) {
   EXPECT(strcmp(bihive_error_text(), "") == 0);
   test_trees();
   test_far_spheres();
+  test_cells();
   test_pictures();
   /* The picture of a file, for comparison with that of `bihive render`: c_library FILE STYLE OUT [NAME VALUE]..., raw
    * RGBA. */

@@ -74,6 +74,19 @@ class Select(ProgramTest):
             done = subprocess.run(["bash", "-e", "-c", block], cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S)
             self.assertEqual((done.returncode, done.stderr), (0, ""), block)
 
+    def test_distances_see_the_images_of_a_cell(self):
+        self.write(
+            "box.xyz",
+            '3\nLattice="10 0 0 0 10 0 0 0 10" Properties=species:S:1:pos:R:3\n'
+            "O 9.8 5 5\nH 0.4 5.5 5\nH 5 5 5\n",
+        )
+        near = "within 1.5 of index 0"
+        self.assertEqual(self.succeed("select", "box.xyz", near), "box.xyz: 2 of 3 spheres, periodic cell\nindex 0..1\n")
+        self.assertEqual(self.succeed("select", "box.xyz", near, "--no-periodic"), "box.xyz: 1 of 3 spheres\nindex 0\n")
+        self.assertEqual(self.succeed("select", "box.xyz", "x > 9"), "box.xyz: 1 of 3 spheres\nindex 0\n")
+        self.assertTrue(self.succeed_json("select", "box.xyz", near, "--periodic")["periodic"])
+        self.assertIn("excludes", self.fail_usage("select", "box.xyz", near, "--periodic", "--no-periodic"))
+
 
 if __name__ == "__main__":
     main()

@@ -1,5 +1,6 @@
 """bihive.Tree: answers beside brute force in NumPy and beside the engine that tests every sphere."""
 
+import pickle
 import unittest
 
 import bihive as bh
@@ -228,6 +229,36 @@ class Queries(unittest.TestCase):
         near = self.tree.contains(points)
         rows = np.repeat(np.arange(3000), near.counts)
         np.testing.assert_allclose(near.distance, all_distances[rows, near.id], rtol=0, atol=1e-12)
+
+    def test_points_see_the_images_of_a_cell(self):
+        cube = np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
+        places = (cube + np.indices((3, 3, 3)).reshape(3, -1).T[:, None]).reshape(-1, 3)
+        crystal = bh.Spheres(places, radius=0.1, cell=[3, 3, 3])
+        tree = bh.Tree(crystal)
+        self.assertTrue(tree.periodic)
+        near = tree.within(places, 0.8, to="centre")
+        self.assertEqual(set(near.counts.tolist()), {13})  # twelve neighbours, and the atom itself
+        distance, _ = tree.nearest(places, 13, to="centre")
+        np.testing.assert_allclose(distance[:, 1:], np.sqrt(0.5), rtol=1e-6)
+        self.assertEqual(tree.contains([3.05, -0.05, 6]).id.tolist(), [0])
+        self.assertEqual(tree.overlaps([3.15, 0, 0], 0.1).id.tolist(), [0])
+        alone = bh.Tree(crystal, periodic=False)
+        self.assertFalse(alone.periodic)
+        self.assertLess(alone.within(places, 0.8, to="centre").counts.min(), 13)
+        one = bh.Tree(bh.Spheres([[0, 0, 0]], radius=0.1, cell=[[0, 1, 1], [1, 0, 1], [1, 1, 0]]))
+        self.assertEqual(one.within([0, 0, 0], 1.5, to="centre").id.tolist(), [0] * 13)
+        slab = bh.Spheres(places, radius=0.1, cell=[3, 3, 3], periodic=(True, True, False))
+        self.assertEqual(slab.periodic, (True, True, False))
+        self.assertEqual(set(bh.Tree(slab).within(places[places[:, 2] == 0], 0.8, to="centre").counts.tolist()), {9})
+        self.assertEqual(pickle.loads(pickle.dumps(slab)), slab)
+        self.assertEqual(bh.select(crystal, "within 0.8 of index 0").sum(), 13)
+        self.assertEqual(bh.select(crystal, "within 0.8 of index 0", periodic=False).sum(), 4)
+        part = bh.Tree(crystal, select="within 0.8 of index 0")
+        self.assertEqual(part.within([0, 0, 0], 0.8, to="centre").counts.tolist(), [13])
+        with self.assertRaisesRegex(ValueError, "million images"):
+            tree.within([0, 0, 0], np.inf)
+        with self.assertRaisesRegex(ValueError, "periodic"):
+            bh.Spheres(places, radius=0.1, cell=[3, 3, 3], periodic="yes")
 
     def test_points_of_a_selection_and_in_pieces(self):
         points = RNG.normal(size=(140_000, 3))  # more than are asked between two looks for Ctrl-C

@@ -148,6 +148,83 @@ TEST(Unwrap, KeepsMoleculesTogether) {
     EXPECT_EQ(file.spheres.centre(static_cast<std::int64_t>(i)), expected[i]) << i;
 }
 
+const std::string kTwoWaters =
+    "CRYST1   10.000   10.000   10.000  90.00  90.00  90.00 P 1           1\n"
+    "HETATM    1  O   HOH A   1       9.800   5.000   5.000  1.00  0.00           O\n"
+    "HETATM    2  H1  HOH A   1       0.400   5.500   5.000  1.00  0.00           H\n"
+    "HETATM    3  H2  HOH A   1       0.500   5.900   5.000  1.00  0.00           H\n"
+    "HETATM    4  O   HOH A   2       0.200   5.000   5.000  1.00  0.00           O\n"
+    "HETATM    5  H1  HOH A   2       9.600   5.500   5.000  1.00  0.00           H\n";
+
+std::vector<double> all_x(const SphereFile& file) {
+  std::vector<double> x;
+  for (std::int64_t id = 0; id < file.spheres.size(); ++id)
+    x.push_back(std::round(file.spheres.centre(id).x * 1000) / 1000);
+  return x;
+}
+
+TEST(Unwrap, MakesResiduesWhole) {
+  const SphereFile file = read_text(kTwoWaters, "a.pdb", with(Wrapping::unwrap));
+  EXPECT_EQ(all_x(file), (std::vector<double>{9.8, 10.4, 10.5, 0.2, -0.4}));
+  EXPECT_NE(std::find(file.rules.begin(), file.rules.end(),
+                      "unwrapped: the spheres of a residue (chain, number and name) each next to the one before"),
+            file.rules.end());
+  const SphereFile gro = read_text(
+      "two\n 2\n    1SOL     OW    1   0.950   1.000   1.000\n"
+      "    1SOL    HW1    2   0.050   1.000   1.000\n   1.0 1.0 1.0\n",
+      "a.gro", with(Wrapping::unwrap));
+  EXPECT_EQ(all_x(gro)[1], 10.5);
+}
+
+TEST(Unwrap, GoesAlongBondsInWhateverOrder) {
+  const std::string head = "@<TRIPOS>MOLECULE\nchain\n4 3\nSMALL\nNO_CHARGES\n@<TRIPOS>ATOM\n";
+  const std::string atoms = "1 C1 9 5 5 C.3 1 A\n2 C2 7 5 5 C.3 1 A\n3 C3 2 5 5 C.3 1 A\n4 C4 0.5 5 5 C.3 1 A\n";
+  const std::string bonds = "@<TRIPOS>BOND\n1 1 4 1\n2 4 3 1\n3 99 2 1\n";
+  const std::string cell = "@<TRIPOS>CRYSIN\n10 10 10 90 90 90 1 1\n";
+  const SphereFile file = read_text(head + atoms + bonds + cell, "a.mol2", with(Wrapping::unwrap));
+  EXPECT_EQ(all_x(file), (std::vector<double>{9, 7, 12, 10.5}));
+  EXPECT_EQ(file.rules.back(), "unwrapped: along the bonds that the file states");
+  ReadOptions options = with(Wrapping::unwrap);
+  options.cell_vectors = {Vec3d{10, 0, 0}, Vec3d{0, 10, 0}, Vec3d{0, 0, 10}};
+  const std::string sdf =
+      "two\n\n\n  2  1  0  0  0  0            999 V2000\n"
+      "    9.0000    0.0000    0.0000 C   0  0\n    0.5000    0.0000    0.0000 O   0  0\n  1  2  1  0\nM  END\n";
+  EXPECT_EQ(all_x(read_text(sdf, "a.sdf", options)), (std::vector<double>{9, 10.5}));
+}
+
+TEST(Wrap, MovesWholeMoleculesByTheirMiddle) {
+  const SphereFile file = read_text(kTwoWaters, "a.pdb", with(Wrapping::wrap_molecules));
+  EXPECT_EQ(all_x(file), (std::vector<double>{-0.2, 0.4, 0.5, 10.2, 9.6}));
+  EXPECT_EQ(file.rules.back(), "wrapped: every molecule as a whole, its middle into the cell");
+  EXPECT_NE(error_of(dump("pp pp pp\n0 10\n0 10\n0 10\n", "1 9 0 0\n"), "a.dump", with(Wrapping::wrap_molecules))
+                .find("nothing says which spheres belong together"),
+            std::string::npos);
+}
+
+TEST(Cell, PbcOfExtendedXyzCountsForDistances) {
+  const auto periodic = [](const std::string& flags) {
+    return cell_of(read_text("1\nLattice=\"2 0 0 0 2 0 0 0 2\"" + flags + "\nO 0 0 0\n", "a.xyz")).periodic;
+  };
+  EXPECT_EQ(periodic(""), (std::array<bool, 3>{true, true, true}));
+  EXPECT_EQ(periodic(" pbc=\"T T F\""), (std::array<bool, 3>{true, true, false}));
+  EXPECT_EQ(periodic(" pbc=[true, False, 1]"), (std::array<bool, 3>{true, false, true}));
+  EXPECT_EQ(periodic(" pbc=maybe"), (std::array<bool, 3>{true, true, true}));
+}
+
+TEST(Cell, DefaultRadiiSeeImages) {
+  const std::string text = dump("pp pp pp\n0 10\n0 10\n0 10\n", "1 0.5 5 5\n2 9.5 5 5\n");
+  EXPECT_EQ(read_text(text, "a.dump").spheres.radius(0), 0.5);
+  ReadOptions options;
+  options.periodic = false;
+  const SphereFile alone = read_text(text, "a.dump", options);
+  EXPECT_EQ(alone.spheres.radius(0), 4.5);
+  EXPECT_EQ(cell_of(alone).periodic, (std::array<bool, 3>{}));
+  EXPECT_EQ(read_text(dump("pp pp pp\n0 6\n0 10\n0 10\n", "1 1 1 1\n"), "a.dump").spheres.radius(0), 3)
+      << "its own image is the nearest";
+  // The same place on two borders of the cell.
+  EXPECT_EQ(read_text(dump("pp pp pp\n0 8\n0 9\n0 9\n", "1 0 5 5\n2 8 5 5\n3 2 5 5\n"), "a.dump").spheres.radius(0), 1);
+}
+
 TEST(Cell, OfEachPdbModelIsItsOwn) {
   const auto cell = [](const std::string& length) {
     return "CRYST1   " + length + "   40.000   80.000  90.00  90.00  90.00 P 1           1\n";

@@ -6,26 +6,19 @@ namespace bihive {
 namespace {
 
 TEST(ReadingSettings, EveryRowIsTakenAndReported) {
-  const std::vector<std::pair<std::string, std::string>> texts{{"radius", "0.5"},
-                                                               {"radius_scale", "2"},
-                                                               {"frame", "3"},
-                                                               {"trajectory", "a.xtc"},
-                                                               {"recenter", ""},
-                                                               {"assembly", "1"},
-                                                               {"columns", "x=px,r=5"},
-                                                               {"replicate", "2x3x1"},
-                                                               {"unwrap", ""},
-                                                               {"cell_origin", "1,2,3"},
-                                                               {"cell_vectors", "1,0,0,0,2,0,0,0,3"}};
+  const std::vector<std::pair<std::string, std::string>> texts{
+      {"radius", "0.5"},   {"radius_scale", "2"}, {"frame", "3"},           {"trajectory", "a.xtc"},
+      {"recenter", ""},    {"assembly", "1"},     {"columns", "x=px,r=5"},  {"replicate", "2x3x1"},
+      {"no_periodic", ""}, {"unwrap", ""},        {"cell_origin", "1,2,3"}, {"cell_vectors", "1,0,0,0,2,0,0,0,3"}};
   GivenReading given;
   for (const auto& [id, text] : texts) EXPECT_TRUE(given.take(id, text).ok()) << id;
-  EXPECT_EQ(given.all().size() + 1, reading_settings().size());  // all but wrap
+  EXPECT_EQ(given.all().size() + 3, reading_settings().size());  // all but wrap, wrap_molecules and periodic
   std::string report;
   for (const auto& [row, text] : given.all()) report += row->value(given.options()) + " ";
   EXPECT_EQ(
       report,
       "0.5 2.0 3 \"a.xtc\" true \"1\" {\"r\":\"5\",\"x\":\"px\"} [2,3,1] [[1.0,0.0,0.0],[0.0,2.0,0.0],[0.0,0.0,3.0]] "
-      "[1.0,2.0,3.0] \"unwrap\" ");
+      "[1.0,2.0,3.0] false \"unwrap\" ");
   EXPECT_EQ(given.options().wrapping, Wrapping::unwrap);
   EXPECT_EQ(given.options().replicate, (std::array<std::int32_t, 3>{2, 3, 1}));
 }
@@ -56,6 +49,11 @@ TEST(ReadingSettings, ErrorsSayWhatWasExpected) {
   ASSERT_TRUE(given.take("wrap", ""));
   EXPECT_EQ(given.take("wrap", "").error().message, "is given more than once");
   EXPECT_EQ(given.take("unwrap", "").error().message, "excludes wrap");
+  EXPECT_EQ(given.take("wrap", "molecules").error().message, "excludes wrap");
+  GivenReading molecules;
+  ASSERT_TRUE(molecules.take("wrap", "molecules"));
+  EXPECT_EQ(molecules.options().wrapping, Wrapping::wrap_molecules);
+  EXPECT_EQ(molecules.take("unwrap", "").error().message, "excludes wrap_molecules");
 }
 
 TEST(ReadingSettings, TravelAsJson) {

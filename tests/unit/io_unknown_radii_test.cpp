@@ -25,26 +25,27 @@ RawSpheres on_a_line(const std::vector<double>& x) {
 }
 
 TEST(RadiusFromNeighbours, IsHalfTheLowerMedian) {
-  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 3})), 1.5);
-  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 1, 3})), 0.5) << "of 1 1 2";
-  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 1, 10, 14})), 0.5) << "of 1 1 4 4: the lower of the two in the middle";
-  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 1, 10, 14, 18})), 2) << "of 1 1 4 4 4";
+  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 3}), {}), 1.5);
+  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 1, 3}), {}), 0.5) << "of 1 1 2";
+  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 1, 10, 14}), {}), 0.5)
+      << "of 1 1 4 4: the lower of the two in the middle";
+  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 1, 10, 14, 18}), {}), 2) << "of 1 1 4 4 4";
 }
 
 TEST(RadiusFromNeighbours, CountsEqualPlacesAsOne) {
-  EXPECT_EQ(radius_from_neighbours(on_a_line({7, 7, 7, 7, 11})), 2);
-  EXPECT_EQ(radius_from_neighbours(on_a_line({7, 7, 7})), std::nullopt);
-  EXPECT_EQ(radius_from_neighbours(on_a_line({7})), std::nullopt);
-  EXPECT_EQ(radius_from_neighbours(on_a_line({0.0, -0.0})), std::nullopt);
+  EXPECT_EQ(radius_from_neighbours(on_a_line({7, 7, 7, 7, 11}), {}), 2);
+  EXPECT_EQ(radius_from_neighbours(on_a_line({7, 7, 7}), {}), std::nullopt);
+  EXPECT_EQ(radius_from_neighbours(on_a_line({7}), {}), std::nullopt);
+  EXPECT_EQ(radius_from_neighbours(on_a_line({0.0, -0.0}), {}), std::nullopt);
 }
 
 TEST(RadiusFromNeighbours, IsExactWhereSquaresAreNot) {
-  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 0x1p-1000})), 0x1p-1001);
-  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 2e38})), 1e38);
+  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 0x1p-1000}), {}), 0x1p-1001);
+  EXPECT_EQ(radius_from_neighbours(on_a_line({0, 2e38}), {}), 1e38);
   const double largest = std::numeric_limits<float>::max();
   RawSpheres corners = on_a_line({-largest, largest});
   corners.y = corners.z = corners.x;
-  EXPECT_EQ(radius_from_neighbours(corners), largest) << "larger ones are no radii";
+  EXPECT_EQ(radius_from_neighbours(corners, {}), largest) << "larger ones are no radii";
 }
 
 // Of 131,072 spheres those with even ids are looked at. They lie 10 apart.
@@ -55,11 +56,11 @@ TEST(RadiusFromNeighbours, LooksAt65536SpheresEvenlyById) {
     spheres.x.push_back(-100.0 - i);  // 1 apart
   }
   spheres.y = spheres.z = std::vector<double>(spheres.x.size());
-  EXPECT_EQ(radius_from_neighbours(spheres), 5);
+  EXPECT_EQ(radius_from_neighbours(spheres, {}), 5);
 
   // Any sphere may be the neighbour.
   for (std::size_t i = 1; i < spheres.x.size(); i += 2) spheres.x[i] = spheres.x[i - 1] + 4;
-  EXPECT_EQ(radius_from_neighbours(spheres), 2);
+  EXPECT_EQ(radius_from_neighbours(spheres, {}), 2);
 }
 
 TEST(UnknownRadii, AreHalfTheMiddleDistanceAndSaid) {

@@ -258,6 +258,79 @@ TEST(Selection, WithinIncludesItsLimitAndItsOwnSpheres) {
   EXPECT_EQ(ids("within 1e300 of index 2"), ids("all"));
 }
 
+// Whether an image of `b`, moved by -reach to reach along each vector, is at most `distance` from `a`.
+bool image_is_within(const SphereSet& spheres, std::int64_t a, std::int64_t b, double distance, int reach) {
+  std::array<Vec3d, 3> vectors = spheres.cell()->vectors;
+  for (Vec3d& vector : vectors) vector = vector * spheres.scale();
+  const double limit = distance * spheres.scale();
+  std::array<int, 3> most{};
+  for (std::size_t k = 0; k < 3; ++k) most[k] = spheres.cell()->periodic[k] && vectors[k] != Vec3d{} ? reach : 0;
+  for (int i = -most[0]; i <= most[0]; ++i)
+    for (int j = -most[1]; j <= most[1]; ++j)
+      for (int k = -most[2]; k <= most[2]; ++k) {
+        const Vec3d shift = double(i) * vectors[0] + double(j) * vectors[1] + double(k) * vectors[2];
+        const Vec3d between = (spheres.stored_centre(b) - spheres.stored_centre(a)) + shift;
+        if (dot(between, between) <= limit * limit) return true;
+      }
+  return false;
+}
+
+TEST(Selection, WithinSeesTheImagesOfEveryCell) {
+  Cell slab{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}};
+  slab.periodic[2] = false;
+  const std::vector<Cell> cells{{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}},
+                                {{}, {Vec3d{4, 0, 0}, Vec3d{1.9, 3, 0}, Vec3d{-1.5, 1.2, 5}}},
+                                {{}, {Vec3d{-2, 1, 0.5}, Vec3d{1.9, 3, 0}, Vec3d{0.25, 1.2, -2}}},
+                                {{}, {Vec3d{4, 0, 0}, Vec3d{}, Vec3d{1, 0, 3}}},
+                                {{}, {Vec3d{}, Vec3d{0, 2, 0.5}, Vec3d{}}},
+                                slab};
+  SplitMix64 random(36);
+  for (const Cell& cell : cells)
+    for (const double distance : {0.0, 0.4, 1.0, 2.5, 7.0}) {
+      // Some lie in the cell, others have left it.
+      std::vector<double> x, y, z;
+      for (int i = 0; i < 40; ++i) {
+        Vec3d at = random.next_double() * cell.vectors[0] + random.next_double() * cell.vectors[1] +
+                   random.next_double() * cell.vectors[2];
+        if (i % 4 == 0) at = at + double(random.next_below(3)) * cell.vectors[0] - 2.0 * cell.vectors[1];
+        if (i == 7) at = {x[2] + cell.vectors[0].x, y[2] + cell.vectors[0].y, z[2] + cell.vectors[0].z};
+        x.push_back(at.x), y.push_back(at.y), z.push_back(at.z);
+      }
+      SphereSet spheres = SphereSet::from_world(x, y, z, std::vector<double>(40, 0.1)).value();
+      spheres.cell() = cell;
+      Ids expected;
+      for (int i = 0; i < 40; ++i)
+        for (const int of : {0, 2, 9})
+          if (image_is_within(spheres, i, of, distance, 9)) {
+            expected.push_back(i);
+            break;
+          }
+      EXPECT_EQ(ids_in(spheres, "within " + std::to_string(distance) + " of index 0 2 9"), expected)
+          << "cell " << &cell - cells.data() << ", distance " << distance;
+      EXPECT_TRUE(sees_images(spheres, "x > 0 or not within 1 of index 0"));
+      spheres.cell()->periodic = {false, false, false};
+      EXPECT_FALSE(sees_images(spheres, "within 1 of index 0"));
+    }
+}
+
+TEST(Selection, ACellThatIsNoneChangesNothing) {
+  SphereSet spheres = table();
+  for (const Cell& cell :
+       {Cell{{}, {Vec3d{}, Vec3d{}, Vec3d{}}}, Cell{{}, {Vec3d{5, 0, 0}, Vec3d{10, 0, 0}, Vec3d{}}}}) {
+    spheres.cell() = cell;
+    EXPECT_EQ(ids_in(spheres, "within 1 of index 0"), (Ids{0, 1}));
+    EXPECT_FALSE(sees_images(spheres, "within 1 of index 0"));
+  }
+  spheres.cell() = Cell{{}, {Vec3d{6, 0, 0}, Vec3d{}, Vec3d{}}};
+  EXPECT_EQ(ids_in(spheres, "within 1 of index 0"), (Ids{0, 1, 5}));
+  EXPECT_FALSE(sees_images(spheres, "x > 0"));
+  // One outlier, a million cells away, is as near as any other.
+  spheres = SphereSet::from_world(std::vector<double>{0, 6e6 + 1, 3}, {0, 0, 0}, {0, 0, 0}, {1, 1, 1}).value();
+  spheres.cell() = Cell{{}, {Vec3d{6, 0, 0}, Vec3d{0, 6, 0}, Vec3d{0, 0, 6}}};
+  EXPECT_EQ(ids_in(spheres, "within 1.5 of index 0"), (Ids{0, 1}));
+  EXPECT_EQ(ids_in(spheres, "within 1e300 of index 2"), (Ids{0, 1, 2}));
+}
+
 TEST(Selection, ErrorsNameThePlaceAndTheRemedy) {
   const struct {
     const char *expression, *column, *message;

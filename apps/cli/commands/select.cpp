@@ -36,9 +36,10 @@ void run_select(const SelectOptions& options) {
   const std::int64_t count = std::count(mask.begin(), mask.end(), std::uint8_t{1});
   const std::string reason = count == 0 ? what_there_is(spheres, options.expression) : "";
   if (!reason.empty()) warn(reason);
+  const bool periodic = sees_images(spheres, options.expression);
   if (!options.json) {
-    print(fmt::format("{}: {} of {} spheres\n{}\n", escaped(input.scene.name), grouped(count), grouped(spheres.size()),
-                      ids_as_ranges(mask)));
+    print(fmt::format("{}: {} of {} spheres{}\n{}\n", escaped(input.scene.name), grouped(count),
+                      grouped(spheres.size()), periodic ? ", periodic cell" : "", ids_as_ranges(mask)));
     return;
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -46,6 +47,7 @@ void run_select(const SelectOptions& options) {
   json["expression"] = options.expression;
   json["spheres"] = spheres.size();
   json["selected"] = count;
+  json["periodic"] = periodic;
   json["ids"] = nlohmann::ordered_json::array();
   for (std::size_t id = 0; id < mask.size(); ++id)
     if (mask[id] != 0) json["ids"].push_back(id);

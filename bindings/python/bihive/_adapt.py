@@ -74,6 +74,7 @@ def _of_ase(atoms: Any) -> Spheres:
         atoms.get_positions(),
         element=atoms.get_atomic_numbers(),
         cell=_cell_of(atoms.get_cell()) if hasattr(atoms, "get_cell") else None,
+        periodic=[bool(one) for one in atoms.get_pbc()] if hasattr(atoms, "get_pbc") else True,
         name="atoms",
         columns=columns,
     )

@@ -103,6 +103,8 @@ def words_of(options: Mapping[str, Any], allowed: Iterable[str] | None = None) -
     known = set(ONE_VALUE + FLAGS + SWITCHES + SIZES + ACTIONS + ["light"] if allowed is None else allowed)
     words: list[str] = []
     for name, value in options.items():
+        if name == "wrap" and isinstance(value, str) and value == "molecules":
+            name, value = "wrap_molecules", True
         if name not in known:
             near = difflib.get_close_matches(name, sorted(known), 5) or sorted(known)[:5]
             raise bad_argument(name, "there is no such option", f"there are {', '.join(near)} and others")

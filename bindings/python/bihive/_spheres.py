@@ -105,6 +105,15 @@ def _cell(value: Any) -> Array:
     return array
 
 
+def _periodic(value: Any) -> tuple[bool, bool, bool]:
+    """For each vector of the cell."""
+    flags = np.asarray(value)
+    if flags.dtype.kind not in "bui" or flags.shape not in ((), (3,)) or not bool(np.isin(flags, (0, 1)).all()):
+        raise bad_argument("periodic", f"expected True, False or three of them, found {found(value)}")
+    a, b, c = np.broadcast_to(flags, 3)
+    return bool(a), bool(b), bool(c)
+
+
 class Spheres:
     """Spheres with their attributes: an immutable set.
 
@@ -117,6 +126,7 @@ class Spheres:
     element: atomic numbers (0: unknown) or symbols, shape (n,), or one.
     type: whole numbers, shape (n,), or one.
     cell: the periodic cell: three lengths, vectors (3, 3), or vectors and corner (4, 3).
+    periodic: whether distances (selections, Tree) see the images along the cell; or three of them, one for each vector.
     columns: further attributes by name, each of shape (n,): numbers or texts. Selections and colour_by know them.
 
     Raises UsageError (a ValueError) that names the argument, InputError for a coordinate or radius that is NaN, infinite,
@@ -140,6 +150,7 @@ class Spheres:
         element: Any = None,
         type: Any = None,
         cell: Any = None,
+        periodic: Any = True,
         name: str = "spheres",
         columns: Optional[Mapping[str, Any]] = None,
         **more_columns: Any,
@@ -185,6 +196,7 @@ class Spheres:
             list(numbers_of.items()),
             list(texts_of.items()),
             None if cell is None else np.asarray(_cell(cell), dtype=np.float64),
+            _periodic(periodic),
             "array",
             text_of("name", name),
         )
@@ -215,6 +227,12 @@ class Spheres:
     def cell(self) -> Optional[Array]:
         """float64 (4, 3): the three vectors of the periodic cell and its corner; None: there is none."""
         return self._core.cell
+
+    @property
+    def periodic(self) -> tuple[bool, bool, bool]:
+        """Along which vectors of the cell distances see images; False without a cell."""
+        a, b, c = self._core.periodic
+        return a, b, c
 
     @property
     def columns(self) -> list[str]:
@@ -340,7 +358,7 @@ class Spheres:
         if core.has_images:
             raise bad_argument("replicate", "replicated spheres cannot be copied by value", "give replicate to render")
         state: dict[str, Any] = {"format": core.format, "name": core.name, "xyz": self.xyz, "radius": self.radius}
-        for name in ("element", "type", "colour", "opacity", "cell", "columns"):
+        for name in ("element", "type", "colour", "opacity", "cell", "periodic", "columns"):
             state[name] = getattr(core, name)
         return state
 
@@ -400,6 +418,7 @@ def _core_of(state: dict[str, Any]) -> _bihive.Spheres:
         numbers_of,
         texts_of,
         floats("cell", np.float64, 3),
+        _periodic(state.get("periodic", True)),
         text_of("format", state["format"]),
         text_of("name", state["name"]),
     )
@@ -431,8 +450,8 @@ def check_readable(path: Union[str, os.PathLike[str]], name: str = "path") -> st
 def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     """The spheres of a file of any format that ``bihive render`` reads, or of a built-in name ("demo").
 
-    options: frame (from 0; -1 is the last), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, cell_vectors,
-    cell_origin, columns (a dict such as {"x": "px", "r": 5}: names or places of columns); of built-in scenarios count and seed.
+    options: frame (from 0; -1 is the last), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, periodic,
+    cell_vectors, cell_origin, columns (a dict such as {"x": "px", "r": 5}: names or places of columns); of built-in scenarios count and seed.
 
     Raises FileError (an OSError) if the file cannot be opened, InputError (a ValueError) with file and line if its content
     cannot be used. Warnings of the reader are given as InputWarning.
@@ -460,19 +479,21 @@ def convert(
     """
     spheres = read(check_readable(source, "source"), **options)
     if select is not None:
-        spheres = spheres[spheres._core.select(text_of("select", select, "a selection as text"), "select")]
+        spheres = spheres[spheres._core.select(text_of("select", select, "a selection as text"), "select", True)]
     return spheres.save(path, format)
 
 
-def select(spheres: Spheres, expression: str) -> Array:
+def select(spheres: Spheres, expression: str, *, periodic: bool = True) -> Array:
     """bool (n,): which spheres a selection (docs/selections.md) takes. Raises UsageError that shows the faulty column.
+
+    periodic: distances see the images along the spheres' cell, if they have one.
 
     >>> int(select(read("demo"), "name CA and chain A").sum())
     99
     """
     if not isinstance(spheres, Spheres):
         raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
-    return spheres._core.select(text_of("expression", expression), "expression")
+    return spheres._core.select(text_of("expression", expression), "expression", boolean("periodic", periodic))
 
 
 def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import numpy as np
 from . import _bihive
 from ._adapt import spheres_of
 from ._arrays import one_each, vectors, whole_numbers
-from ._checks import one_of, text_of
+from ._checks import boolean, one_of, text_of
 from ._errors import InputError, bad_argument, found
 from ._options import words_of
 from ._spheres import Spheres
@@ -37,7 +37,7 @@ class Near(NamedTuple):
     """The spheres near many points: by point, then by position.
 
     begin: int64 (points + 1): the spheres of point i are those from begin[i] to before begin[i + 1]. id: int64, the sphere's
-    position. distance: float64, below 0 inside a sphere.
+    position; of a periodic tree, once for each of its images. distance: float64, below 0 inside a sphere.
     """
 
     begin: Array
@@ -56,6 +56,9 @@ class Tree:
     sphere, bit for bit.
 
     spheres: Spheres, or what render() takes besides paths. select: only these spheres count; ids stay positions in all.
+    periodic: where the spheres have a periodic cell, queries about points see every image of a sphere, at any distance: its
+        position, which then may occur several times, and the distance to the image. Rays meet the spheres alone. False: no
+        images.
     engine: "auto" (wide), "wide", "reference", "brute" or "wide-brute". max_prims, max_depth: limits of the tree.
     threads: of building and queries; 0: as many as the machine runs at once.
 
@@ -66,6 +69,9 @@ class Tree:
     ([9.0, inf], [0, -1])
     >>> tree.all_hits([-10, 0, 0], [1, 0, 0]).t.tolist()
     [9.0, 14.0]
+    >>> box = Tree(Spheres([[0.5, 0, 0], [9.5, 0, 0]], radius=0.1, cell=[10, 10, 10]))
+    >>> box.within([0.5, 0, 0], 1.5, to="centre").id.tolist()
+    [0, 1]
     """
 
     def __init__(
@@ -73,6 +79,7 @@ class Tree:
         spheres: Any,
         *,
         select: Optional[str] = None,
+        periodic: bool = True,
         engine: str = "auto",
         max_prims: Any = None,
         max_depth: Any = None,
@@ -81,17 +88,23 @@ class Tree:
         _bihive.check_environment()
         self._spheres: Spheres = spheres_of(spheres)
         self._ids: Optional[Array] = None
+        images = boolean("periodic", periodic)
         if select is not None:
             expression = text_of("select", select, "a selection as text")
-            self._ids = np.flatnonzero(self._spheres._core.select(expression, "select"))
+            self._ids = np.flatnonzero(self._spheres._core.select(expression, "select", images))
         options = {"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads}
         part = None if self._ids is None else self._ids.tolist()
-        self._core = _bihive.build_tree(self._spheres._core, part, words_of(options))
+        self._core = _bihive.build_tree(self._spheres._core, part, images, words_of(options))
 
     @property
     def spheres(self) -> Spheres:
         """Its spheres."""
         return self._spheres
+
+    @property
+    def periodic(self) -> bool:
+        """Whether queries about points see images along the spheres' cell."""
+        return self._core.periodic
 
     @property
     def build_ms(self) -> float:

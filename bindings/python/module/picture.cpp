@@ -62,6 +62,7 @@ Input input_of(const Spheres& spheres, const PictureRequest& options, const Styl
   refuse_settings_of_files(options.input);
   if (spheres.file.spheres.empty()) fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
   SphereFile file = spheres.file;
+  if (!options.input.reading.options().periodic && file.spheres.cell()) file.spheres.cell()->periodic = {};
   if (options.input.reading.has("replicate")) {
     if (!file.spheres.cell()) fail_setting("replicate", " needs a periodic cell", "give Spheres a cell");
     value_of(file.spheres.replicate(file.spheres.cell()->vectors, options.input.reading.options().replicate));

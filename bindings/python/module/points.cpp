@@ -29,6 +29,7 @@ PointOptions options_of(const RayTree& tree, bool to_centre) {
   PointOptions options;
   options.to = to_centre ? DistanceTo::centre : DistanceTo::surface;
   options.threads = tree.threads;
+  if (tree.images) options.images = &*tree.images;
   return options;
 }
 

@@ -71,8 +71,8 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
                                   const std::optional<Array<float>>& colour, const std::optional<Array<float>>& opacity,
                                   const std::vector<std::pair<std::string, Array<double>>>& numbers,
                                   const std::vector<std::pair<std::string, std::vector<std::string>>>& texts,
-                                  const std::optional<Array<double>>& cell, const std::string& format,
-                                  const std::string& name) {
+                                  const std::optional<Array<double>>& cell, const std::array<bool, 3>& periodic,
+                                  const std::string& format, const std::string& name) {
   const py::ssize_t count = xyz.ndim() == 2 && xyz.shape(1) >= 3 ? xyz.shape(0) : -1;
   check_size("radius", radius, count);
   if (element) check_size("element", *element, count);
@@ -101,7 +101,7 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
   for (const auto& [column, values] : texts) attributes.texts.push_back(texts_from(column, values));
   if (cell) {
     const auto row = [&](py::ssize_t i) { return Vec3d{cell->at(i, 0), cell->at(i, 1), cell->at(i, 2)}; };
-    made->file.spheres.cell() = Cell{row(3), {row(0), row(1), row(2)}};
+    made->file.spheres.cell() = Cell{row(3), {row(0), row(1), row(2)}, periodic};
   }
   made->file.format = format;
   made->name = name;
@@ -202,12 +202,25 @@ py::object cell_or_none(const Spheres& spheres) {
   return array_from<double>(std::move(flat), {4, 3});
 }
 
-// `name`: of the argument, for errors.
-py::array_t<bool> select(const Spheres& spheres, const std::string& expression, const std::string& name) {
+std::array<bool, 3> periodic(const Spheres& spheres) {
+  const std::optional<Cell>& cell = spheres.file.spheres.cell();
+  return cell ? cell->periodic : std::array<bool, 3>{};
+}
+
+// `name`: of the argument, for errors. `periodic`: distances see the images along the set's cell.
+py::array_t<bool> select(const Spheres& spheres, const std::string& expression, const std::string& name,
+                         bool periodic) {
   std::vector<std::uint8_t> mask;
   {
     const py::gil_scoped_release unlocked;
-    mask = selected_or_fail(spheres.file.spheres, expression, name);
+    const SphereSet* set = &spheres.file.spheres;
+    SphereSet without_images;
+    if (!periodic && set->cell()) {
+      without_images = *set;
+      without_images.cell().reset();
+      set = &without_images;
+    }
+    mask = selected_or_fail(*set, expression, name);
   }
   py::array_t<bool> made(static_cast<py::ssize_t>(mask.size()));
   std::transform(mask.begin(), mask.end(), made.mutable_data(), [](std::uint8_t one) { return one != 0; });
@@ -307,6 +320,7 @@ void bind_spheres(py::module_& module) {
                              [](const Spheres& s) { return array_or_none(s.file.spheres.attributes().opacity); })
       .def_property_readonly("columns", columns)
       .def_property_readonly("cell", cell_or_none)
+      .def_property_readonly("periodic", periodic)
       .def_property_readonly(
           "bounds",
           [](const Spheres& s) {

@@ -223,9 +223,9 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
 }
 
 // `part`: ids of a subset of the spheres; their positions in it are the answers' ids. `words`: options of `bihive
-// trace` about tree, engine and threads.
+// trace` about tree, engine and threads. `periodic`: points see the images along the set's cell.
 std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
-                                    const std::vector<std::string>& words) {
+                                    bool periodic, const std::vector<std::string>& words) {
   const PictureRequest options = request_of(words);
   if (is_gpu(options.engine)) fail_setting("engine", ": a graphics processor answers no rays", "leave it out");
   const Engine engine = structure_of(options.engine);
@@ -242,6 +242,7 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
         const SphereSet& set = tree->spheres->file.spheres;
         value_of(check_tree_memory(set, engine, options.tree));
         tree->tracer = value_of(Tracer::build(set, engine, options.tree, tree->threads));
+        if (periodic && !set.has_images()) tree->images = value_of(PeriodicImages::of(set, tree->threads));
       },
       py::none());
   return tree;
@@ -260,13 +261,15 @@ void bind_trees(py::module_& module) {
   TreeClass tree_class(module, "Tree");
   tree_class.def("__len__", [](const RayTree& tree) { return tree.spheres->file.spheres.size(); })
       .def_property_readonly("build_ms", [](const RayTree& tree) { return tree.tracer->build_ms(); })
+      .def_property_readonly("periodic", [](const RayTree& tree) { return tree.images.has_value(); })
       .def("closest", closest)
       .def("occluded", occluded)
       .def("all_hits", every_hit);
   bind_points(tree_class);
-  module.def("build_tree",
-             [](const std::shared_ptr<Spheres>& spheres, const std::optional<std::vector<std::int64_t>>& part,
-                const std::vector<std::string>& words) { return build_tree(spheres, part, words); });
+  module.def(
+      "build_tree",
+      [](const std::shared_ptr<Spheres>& spheres, const std::optional<std::vector<std::int64_t>>& part, bool periodic,
+         const std::vector<std::string>& words) { return build_tree(spheres, part, periodic, words); });
 }
 
 }  // namespace bihive::python

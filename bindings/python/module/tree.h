@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bihive/render/tracer.h"
+#include "bihive/wide/periodic_images.h"
 #include "spheres.h"
 
 namespace bihive::python {
@@ -15,6 +16,7 @@ namespace bihive::python {
 struct RayTree {
   SharedSpheres spheres;
   std::optional<Tracer> tracer;
+  std::optional<PeriodicImages> images;  ///< of queries about points
   int threads = 0;
 };
 

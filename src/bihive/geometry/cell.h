@@ -13,8 +13,12 @@ namespace bihive {
 struct Cell {
   Vec3d origin;
   std::array<Vec3d, 3> vectors;
+  /// Along which edges distances know images (geometry/lattice.h). Edges, copies and wrapping take the whole cell.
+  std::array<bool, 3> periodic{true, true, true};
 
-  friend bool operator==(const Cell& a, const Cell& b) { return a.origin == b.origin && a.vectors == b.vectors; }
+  friend bool operator==(const Cell& a, const Cell& b) {
+    return a.origin == b.origin && a.vectors == b.vectors && a.periodic == b.periodic;
+  }
 };
 
 /// Copies of a set along the three vectors of its cell: counts[0] x counts[1] x counts[2] of them, each count from 1.

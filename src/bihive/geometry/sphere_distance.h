@@ -21,4 +21,12 @@ inline double sphere_distance(Vec3d point, Vec3d centre, double radius, Distance
   return to == DistanceTo::centre ? to_centre : to_centre - radius;
 }
 
+/// The same to the image of the sphere that is moved by `shift`: the sum of the vector between the two points and the
+/// shift. So it is the same from either end, and that of the sphere itself for a shift of 0.
+inline double image_distance(Vec3d point, Vec3d centre, Vec3d shift, double radius, DistanceTo to) {
+  const Vec3d between = (centre - point) + shift;
+  const double to_centre = std::sqrt(dot(between, between));
+  return to == DistanceTo::centre ? to_centre : to_centre - radius;
+}
+
 }  // namespace bihive

@@ -9,6 +9,12 @@
 
 namespace bihive {
 
+void add_bond(RawSpheres& spheres, std::optional<std::int64_t> one, std::optional<std::int64_t> other) {
+  const auto count = static_cast<std::int64_t>(spheres.size());
+  if (!one || !other || *one < 1 || *other < 1 || *one > count || *other > count) return;
+  spheres.bonds.push_back({static_cast<std::int32_t>(*one - 1), static_cast<std::int32_t>(*other - 1)});
+}
+
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames) {
   const std::string what = "there is no frame " + std::to_string(frame) + ": the file has ";
   if (frames == 0) return {what + "none", file, 0, 0, ""};

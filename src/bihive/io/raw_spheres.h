@@ -1,6 +1,7 @@
 // The content of a file as its reader finds it, before the steps that all formats share (io/assemble/finish.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,6 +31,9 @@ struct RawSpheres {
   SphereAttributes attributes;
   std::optional<double> unknown_radius;  ///< for spheres with neither radius nor known element; >= 0
   Assemblies assemblies;
+  /// Pairs of spheres between which the file states a bond; without any it may still have some. They serve
+  /// Wrapping::unwrap alone.
+  std::vector<std::array<std::int32_t, 2>> bonds;
   std::optional<Cell> cell;
   std::optional<double> time_ps;     ///< picoseconds
   std::optional<std::int64_t> step;  ///< of the simulation
@@ -40,6 +44,10 @@ struct RawSpheres {
 
   std::size_t size() const { return x.size(); }
 };
+
+/// Adds a bond between two spheres, each by its position in the file, from 1. Without effect if either is none of the
+/// spheres that were read.
+void add_bond(RawSpheres& spheres, std::optional<std::int64_t> one, std::optional<std::int64_t> other);
 
 /// The error for a frame that the file does not have.
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames);

@@ -18,8 +18,9 @@
 namespace bihive {
 
 /// Where spheres of a periodic cell go. wrap: each centre moves by whole vectors of the cell into the cell. unwrap:
-/// spheres that belong together come together (docs/formats.md).
-enum class Wrapping { none, wrap, unwrap };
+/// spheres that belong together come together (docs/formats.md). wrap_molecules: they come together, and all move by
+/// the same vectors, so that their middle is in the cell.
+enum class Wrapping { none, wrap, unwrap, wrap_molecules };
 
 struct ReadOptions {
   std::optional<double> radius;  ///< replaces every radius; >= 0, world units
@@ -34,6 +35,7 @@ struct ReadOptions {
   /// The vectors of the cell and its corner, in place of the file's. A corner that neither states is 0.
   std::optional<std::array<Vec3d, 3>> cell_vectors;
   std::optional<Vec3d> cell_origin;
+  bool periodic = true;                            ///< distances know the cell's images; false: Cell::periodic is not
   Wrapping wrapping = Wrapping::none;              ///< needs a cell
   std::array<std::int32_t, 3> replicate{1, 1, 1};  ///< copies along the cell's vectors (SphereSet::replicate)
 };

@@ -47,6 +47,16 @@ Result<std::int64_t> frame_from_text(const std::string& text) {
   return *frame;
 }
 
+// Whether the id is one of those in the list, which blanks separate.
+bool is_among(std::string_view list, std::string_view id) {
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find(' ', begin), list.size());
+    if (list.substr(begin, end - begin) == id) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
 Status take_assembly(ReadOptions& options, const std::string& text) {
   if (text.empty()) return Error{"expected the id of an assembly, found an empty text", "", 0, 0, ""};
   options.assembly = text;
@@ -114,14 +124,34 @@ std::vector<ReadingSetting> make_rows() {
        .help = "Files: the corner of the cell (the file's, else 0,0,0)",
        .take = [](ReadOptions& o, const std::string& text) { return put(cell_origin_from_text(text), o.cell_origin); },
        .value = [](const ReadOptions& o) { return text_of(vector_json(*o.cell_origin)); }},
+      {.id = "periodic",
+       .help = "Files: distances (within, default radii) see the images of the periodic cell; on by itself",
+       .with_chunks = true,
+       .take = [](ReadOptions& o, const std::string&) { return put(Result<bool>(true), o.periodic); },
+       .value = [](const ReadOptions& o) { return text_of(o.periodic); }},
+      {.id = "no_periodic",
+       .help = "Files: distances see the spheres alone, without images",
+       .with_chunks = true,
+       .excludes = "periodic",
+       .take = [](ReadOptions& o, const std::string&) { return put(Result<bool>(false), o.periodic); },
+       .report = "periodic",
+       .value = [](const ReadOptions& o) { return text_of(o.periodic); }},
       {.id = "wrap",
        .help = "Files: move every centre into the cell",
        .take = [](ReadOptions& o, const std::string&) { return put(Result<Wrapping>(Wrapping::wrap), o.wrapping); },
        .report = "wrapping",
        .value = [](const ReadOptions&) { return text_of("wrap"); }},
-      {.id = "unwrap",
-       .help = "Files: bring together what belongs together, by the columns ix, iy, iz or by mol",
+      {.id = "wrap_molecules",
+       .help = "Files: bring molecules together, and move each into the cell as a whole; also as the value molecules "
+               "of wrap",
        .excludes = "wrap",
+       .take = [](ReadOptions& o,
+                  const std::string&) { return put(Result<Wrapping>(Wrapping::wrap_molecules), o.wrapping); },
+       .report = "wrapping",
+       .value = [](const ReadOptions&) { return text_of("wrap_molecules"); }},
+      {.id = "unwrap",
+       .help = "Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues",
+       .excludes = "wrap wrap_molecules",
        .take = [](ReadOptions& o, const std::string&) { return put(Result<Wrapping>(Wrapping::unwrap), o.wrapping); },
        .report = "wrapping",
        .value = [](const ReadOptions&) { return text_of("unwrap"); }},
@@ -154,13 +184,14 @@ const ReadingSetting* reading_setting(std::string_view id) {
 }
 
 Status GivenReading::take(std::string_view id, const std::string& text) {
+  if (id == "wrap" && text == "molecules") return take("wrap_molecules", "");
   const ReadingSetting* const row = reading_setting(id);
   if (row == nullptr) return Error{"there is no setting of reading \"" + std::string(id) + "\"", "", 0, 0, ""};
   if (row->value_name.empty() && !text.empty() && text != "true")
     return Error{"expected no value, or true, found \"" + text + "\"", "", 0, 0, "leave it out to switch it off"};
   if (has(id)) return Error{"is given more than once", "", 0, 0, ""};
   for (const auto& [other, value] : given_)
-    if (other->excludes == id || row->excludes == other->id)
+    if (is_among(other->excludes, id) || is_among(row->excludes, other->id))
       return Error{"excludes " + setting_name(other->id), "", 0, 0, "leave one of them out"};
   if (Status status = row->take(options_, text); !status) return status;
   const auto after = [](const auto& one, const ReadingSetting* other) { return one.first < other; };

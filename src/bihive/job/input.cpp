@@ -97,7 +97,8 @@ void refuse_settings_of_files(const InputOptions& options) {
   refuse(options.count.has_value(), "count", "leave it out");
   refuse(options.seed.has_value(), "seed", "leave it out");
   for (const auto& [row, text] : options.reading.all())
-    refuse(row->id != "frame" && row->id != "replicate", row->id, "give it where they are read");
+    refuse(row->id != "frame" && row->id != "replicate" && row->id != "periodic" && row->id != "no_periodic", row->id,
+           "give it where they are read");
 }
 
 std::optional<Scene> generated_scene(const InputOptions& options) {

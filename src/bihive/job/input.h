@@ -36,8 +36,8 @@ std::string file_of(const InputOptions& options);
 /// Fails with kBadUsage if --replicate is given, for commands that use the stored spheres alone. `what`: what they do.
 void refuse_copies(const InputOptions& options, const std::string& what);
 
-/// Fails with kBadUsage on a setting that is for files, when the spheres are in memory already; `frame` (for titles)
-/// and `replicate` are not among them.
+/// Fails with kBadUsage on a setting that is for files, when the spheres are in memory already; `frame` (for titles),
+/// `replicate` and `periodic` are not among them.
 void refuse_settings_of_files(const InputOptions& options);
 
 /// Coloured, at least one sphere; its warnings were already printed on stderr.

@@ -441,7 +441,11 @@ const std::vector<RequestOption<InputOptions>>& input_options() {
                                       .help = setting.help,
                                       .theme = OptionTheme::reading,
                                       .ranks = setting.with_chunks ? kChunks : kWhole};
-      if (!setting.excludes.empty()) row.excludes.emplace_back(setting.excludes);
+      for (std::size_t begin = 0; begin < setting.excludes.size();) {
+        const std::size_t end = std::min(setting.excludes.find(' ', begin), setting.excludes.size());
+        row.excludes.emplace_back(setting.excludes.substr(begin, end - begin));
+        begin = end + 1;
+      }
       row.take = [&setting](InputOptions& input, const std::string& text) {
         return input.reading.take(setting.id, text);
       };

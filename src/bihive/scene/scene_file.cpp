@@ -266,8 +266,12 @@ class Extraction {
     }
     if (document_.contains("replicate") && options.replicate == ReadOptions().replicate)
       options.replicate = document_.at("replicate").get<std::array<std::int32_t, 3>>();
-    if (document_.contains("wrapping") && options.wrapping == Wrapping::none)
-      options.wrapping = document_.at("wrapping") == "wrap" ? Wrapping::wrap : Wrapping::unwrap;
+    if (document_.contains("wrapping") && options.wrapping == Wrapping::none) {
+      const json& wrapping = document_.at("wrapping");
+      options.wrapping = wrapping == "wrap"             ? Wrapping::wrap
+                         : wrapping == "wrap_molecules" ? Wrapping::wrap_molecules
+                                                        : Wrapping::unwrap;
+    }
   }
 
   void take_spheres() {

@@ -293,16 +293,18 @@ class Evaluation {
     std::vector<Vec3d> points;
     for (std::size_t i = 0; i < size(); ++i)
       if ((*inner)[i] != 0) points.push_back(spheres_.stored_centre(static_cast<std::int64_t>(i)));
-    const NearbyPoints nearby(std::move(points));
 
     // In stored units: multiplying by a power of two is exact.
     const double distance = expression.distance * spheres_.scale();
+    std::optional<Lattice> lattice = Lattice::of(spheres_.cell());
+    if (lattice) lattice = lattice->times(spheres_.scale());
+    const NearbyPoints nearby(std::move(points), lattice);
     SphereMask mask(size());
     const std::int64_t tasks = (spheres_.size() + kSpheresPerTask - 1) / kSpheresPerTask;
     parallel_for(0, tasks, [&](std::int64_t task) {
       const std::int64_t end = std::min(spheres_.size(), (task + 1) * kSpheresPerTask);
       for (std::int64_t id = task * kSpheresPerTask; id < end; ++id)
-        mask[static_cast<std::size_t>(id)] = nearby.any_within(spheres_.stored_centre(id), distance * distance) ? 1 : 0;
+        mask[static_cast<std::size_t>(id)] = nearby.any_within(spheres_.stored_centre(id), distance) ? 1 : 0;
     });
     return mask;
   }

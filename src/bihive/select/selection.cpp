@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/geometry/lattice.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/select/attribute_names.h"
 #include "bihive/select/evaluate.h"
@@ -66,7 +67,17 @@ std::string first_empty_test(const SphereSet& spheres, const Expression& express
   return "";
 }
 
+bool has_distance(const Expression& expression) {
+  return expression.kind == Expression::Kind::within ||
+         std::any_of(expression.operands.begin(), expression.operands.end(), has_distance);
+}
+
 }  // namespace
+
+bool sees_images(const SphereSet& spheres, std::string_view expression) {
+  const Result<Expression> parsed = parse_expression(expression);
+  return parsed && has_distance(*parsed) && Lattice::of(spheres.cell());
+}
 
 std::string what_there_is(const SphereSet& spheres, std::string_view expression) {
   const Result<Expression> parsed = parse_expression(expression);

@@ -14,7 +14,7 @@
 namespace bihive {
 
 /// One byte for each sphere: 1 if the expression selects it, 0 if not. Lengths are in world units. The work is at most
-/// O(n log n) for each part of the expression.
+/// O(n log n) for each part of the expression. Distances know the images of a periodic cell (geometry/lattice.h).
 ///
 /// An error has line and column in the expression, counted from 1 in characters; its message says what was expected or
 /// which name is unknown, and its hint what there is. caret_lines() shows the place.
@@ -22,6 +22,9 @@ Result<std::vector<std::uint8_t>> select_spheres(const SphereSet& spheres, std::
 
 /// Success if the text is an expression, for whatever set.
 Status check_selection(std::string_view expression);
+
+/// Whether the spheres that the expression selects depend on a distance, which sees the images of the set's cell.
+bool sees_images(const SphereSet& spheres, std::string_view expression);
 
 /// Why a selection finds nothing: the first test of texts or numbers in it that no sphere passes, and what there is
 /// instead: "no sphere has chain 'a'; there are A, B". Empty if every test finds some sphere, or the expression is

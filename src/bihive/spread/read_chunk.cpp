@@ -56,7 +56,8 @@ Result<RawSpheres> read_rows(const std::string& path, Communicator& ranks) {
 
 // Radii for a set without any: half the lower median of the distances from neighbour to neighbour, on whatever ranks
 // they are.
-UnknownRadii unknown_radii_of_whole(const RawSpheres& chunk, const Counts& spheres, Communicator& ranks) {
+UnknownRadii unknown_radii_of_whole(const RawSpheres& chunk, const std::optional<Cell>& cell, const Counts& spheres,
+                                    Communicator& ranks) {
   UnknownRadii whole;
   whole.all = spheres.all;
   whole.unknown = sum_over_ranks(count_unknown_radii(chunk), ranks).all;
@@ -64,7 +65,7 @@ UnknownRadii unknown_radii_of_whole(const RawSpheres& chunk, const Counts& spher
   std::vector<Vec3d> origins;
   for (const std::vector<Vec3d>& one : ranks.all_gather_list(search_origins(chunk, spheres.before, spheres.all)))
     origins.insert(origins.end(), one.begin(), one.end());
-  std::vector<double> distances = nearest_distances(chunk, origins);
+  std::vector<double> distances = nearest_distances(chunk, cell, origins);
   for (double& distance : distances) distance = -distance;
   ranks.all_reduce_max(distances);
   for (double& distance : distances) distance = -distance;
@@ -114,7 +115,7 @@ Result<ReadChunk> read_chunk(const std::string& path, const ReadOptions& options
 
   // Radii, and the centre.
   if (ranks.all_reduce_max(steps.has_radii() ? 1 : 0) == 0)
-    steps.fill_radii(unknown_radii_of_whole(steps.raw(), spheres, ranks));
+    steps.fill_radii(unknown_radii_of_whole(steps.raw(), steps.cell(), spheres, ranks));
   if (Status status = steps.apply_options(); !status) return status.error();
   if (options.recenter) {
     std::array<double, 6> ends = steps.centre_ends();

@@ -10,7 +10,8 @@
 // so the nearest sphere is then the one in which the point is deepest. Lengths of arrays are not checked.
 //
 // The queries make threads themselves (0: all), and may run beside other queries. A tree of a set with images knows the
-// stored spheres alone; an image (WideTree::image) is answered as the tree of its moved spheres.
+// stored spheres alone; an image (WideTree::image) is answered as the tree of its moved spheres. With
+// PointOptions::images the set is periodic: every image of a sphere counts, under the sphere's id, at its own distance.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,7 @@
 #include "bihive/base/result.h"
 #include "bihive/geometry/sphere_distance.h"
 #include "bihive/math/vec3.h"
+#include "bihive/wide/periodic_images.h"
 #include "bihive/wide/wide_tree.h"
 
 namespace bihive {
@@ -40,8 +42,9 @@ struct PointSpan {
 
 struct PointOptions {
   DistanceTo to = DistanceTo::surface;
-  const std::uint8_t* mask = nullptr;  ///< a byte for each sphere of the tree, by id: 0 passes over it. Null: all
-  int threads = 0;                     ///< 0: all
+  const std::uint8_t* mask = nullptr;      ///< a byte for each sphere of the tree, by id: 0 passes over it. Null: all
+  int threads = 0;                         ///< 0: all
+  const PeriodicImages* images = nullptr;  ///< of the tree's set (wide/periodic_images.h). Null: the spheres alone
 };
 
 /// `per_point` entries for each point, ordered by distance, then id. With fewer spheres, the rest are +inf and
@@ -59,7 +62,7 @@ Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& po
                                        double within = std::numeric_limits<double>::infinity(),
                                        const PointOptions& options = {});
 
-/// The spheres of point i are entries begin[i] to before begin[i + 1], by ascending id.
+/// The spheres of point i are entries begin[i] to before begin[i + 1], by ascending id; images by ascending distance.
 struct SphereLists {
   std::vector<std::int64_t> begin;  ///< one more than there are points
   std::vector<std::int64_t> sphere_id;
@@ -68,7 +71,8 @@ struct SphereLists {
 
 /// Every sphere at a distance of at most limits[i] from point i. To the surface, 0 gives the spheres that contain the
 /// point, a radius those that overlap the ball around it, and -radius those that contain this ball; to the centre, a
-/// radius gives the centres in the ball. Error: a bad point, a limit that is NaN, or not enough memory.
+/// radius gives the centres in the ball. Error: a bad point, a limit that is NaN, one that reaches more than a million
+/// images, or not enough memory.
 Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, const double* limits,
                                    const PointOptions& options = {});
 /// The same limit for all points.

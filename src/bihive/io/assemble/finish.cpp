@@ -47,16 +47,11 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
 
 // The cell as the user wants it, the centres moved by it, and the copies that are wanted along it.
 Result<Images> apply_cell_options(RawSpheres& raw, const std::string& name, const ReadOptions& options) {
-  if (options.cell_vectors) {
-    raw.cell = Cell{raw.cell ? raw.cell->origin : Vec3d{}, *options.cell_vectors};
-    raw.rules.push_back("cell: its vectors as asked for");
-  }
-  if (options.cell_origin) {
-    if (!raw.cell)
-      return Error{"there is no periodic cell that could begin elsewhere", name, 0, 0,
-                   "give one with " + setting_name("cell_vectors")};
-    raw.cell->origin = *options.cell_origin;
-  }
+  raw.cell = cell_by_options(raw.cell, options);
+  if (options.cell_vectors) raw.rules.push_back("cell: its vectors as asked for");
+  if (options.cell_origin && !raw.cell)
+    return Error{"there is no periodic cell that could begin elsewhere", name, 0, 0,
+                 "give one with " + setting_name("cell_vectors")};
   if (raw.cell && !is_finite(*raw.cell)) return Error{"the numbers of the cell must be finite", name, 0, 0, ""};
   if (Status status = apply_wrapping(raw, options.wrapping, name); !status) return status.error();
   Images images;
@@ -79,6 +74,10 @@ SphereFinisher::SphereFinisher(RawSpheres raw, std::string name, const ReadOptio
 Error SphereFinisher::named(Error error) const {
   error.file = name_;
   return error;
+}
+
+std::optional<Cell> SphereFinisher::cell() const {
+  return cell_by_options(raw_.cell, options_);
 }
 
 Status SphereFinisher::begin(std::int64_t first, std::int64_t all) {
@@ -195,7 +194,7 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   if (!steps.has_radii()) {
     const std::int64_t unknown = count_unknown_radii(steps.raw());
     const bool guesses = unknown > 0 && !steps.raw().unknown_radius;
-    steps.fill_radii({unknown, count, guesses ? radius_from_neighbours(steps.raw()) : std::nullopt});
+    steps.fill_radii({unknown, count, guesses ? radius_from_neighbours(steps.raw(), steps.cell()) : std::nullopt});
   }
   if (Status status = steps.apply_options(); !status) return status.error();
   if (options.recenter && !is_empty) steps.recenter(steps.centre_ends());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "bihive/base/result.h"
@@ -27,6 +28,8 @@ class SphereFinisher {
  public:
   SphereFinisher(RawSpheres raw, std::string name, const ReadOptions& options);
 
+  /// The cell as the options want it.
+  std::optional<Cell> cell() const;
   /// Gone after finish().
   const RawSpheres& raw() const { return raw_; }
   /// Error: the whole set has no spheres.

@@ -1,6 +1,7 @@
 #include "bihive/io/assemble/nearest_place.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <utility>
@@ -22,6 +23,13 @@ constexpr std::size_t kFewForThreads = std::size_t{1} << 16;
 constexpr double kSmallestSquare = 0x1p-900;
 constexpr double kScaleForSmall = 0x1p600;
 
+// A place on the border of a cell and its image on the other side may differ by the file's last digit.
+constexpr double kSamePlace = 0x1p-20;
+
+double largest_of(Vec3d p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
 double square(Vec3d difference, double scale) {
   const Vec3d scaled = scale * difference;
   return dot(scaled, scaled);
@@ -33,23 +41,57 @@ struct NearestPlace::Search {
   Vec3d from;
   double scale;
   double best = std::numeric_limits<double>::infinity();  // squared
+  Vec3d shift{};                                          // of the points
+  double same_place = -1;                                 // squared; below 0: of equal points alone
+  double pad = 0;                                         // of `from` and `shift`, rounded
 
   // Rounding keeps the order of numbers, so no point of the box has a smaller rounded square.
   double square_to(const Box& box) const {
     Vec3d outside;
     for (int axis = 0; axis < 3; ++axis)
-      outside[axis] = std::max({box.lo[axis] - from[axis], from[axis] - box.hi[axis], 0.0});
+      outside[axis] =
+          std::max({box.lo[axis] - (from - shift)[axis] - pad, (from - shift)[axis] - box.hi[axis] - pad, 0.0});
     return square(outside, scale);
   }
 };
 
-NearestPlace::NearestPlace(std::vector<Vec3d> points) : points_(std::move(points)) {
+NearestPlace::NearestPlace(std::vector<Vec3d> points, const std::optional<Lattice>& lattice)
+    : lattice_(lattice), points_(std::move(points)) {
   BIHIVE_CHECK(!points_.empty());
+  bool is_first = true;
+  if (lattice_)
+    for (Vec3d& point : points_) {
+      point = point - lattice_->shift(lattice_->cell_of(point));
+      const Vec3d share = lattice_->shares(point);
+      for (int axis = 0; axis < 3; ++axis) {
+        lowest_share_[axis] = is_first ? share[axis] : std::min(lowest_share_[axis], share[axis]);
+        highest_share_[axis] = is_first ? share[axis] : std::max(highest_share_[axis], share[axis]);
+      }
+      is_first = false;
+    }
   nodes_ = build(0, points_.size());
 }
 
 double NearestPlace::distance_from(Vec3d from) const {
   Search search{from, 1};
+  if (lattice_) {
+    // Its own images are other places.
+    search.from = from - lattice_->shift(lattice_->cell_of(from));
+    search.best = lattice_->longest() * lattice_->longest();
+    search.same_place = kSamePlace * kSamePlace * search.best;
+    const double largest = largest_of(search.from) + 2 * lattice_->longest();
+    search.pad = 0x1p-48 * lattice_->condition() * largest;
+    visit(0, search);
+    const auto range =
+        lattice_->images_within(std::sqrt(search.best), search.from, lowest_share_, highest_share_, largest);
+    any_image(range, [&](const ImageCounts& counts) {
+      if (counts == ImageCounts{}) return false;
+      search.shift = lattice_->shift(counts);
+      visit(0, search);
+      return false;
+    });
+    return std::sqrt(search.best);
+  }
   visit(0, search);
   if (search.best >= kSmallestSquare) return std::sqrt(search.best);
   search = {from, kScaleForSmall};
@@ -146,8 +188,10 @@ void NearestPlace::visit(std::size_t at, Search& search) const {
   const Node& node = nodes_[at];
   if (node.right == 0) {
     for (std::size_t i = node.first; i < node.end; ++i)
-      if (points_[i] != search.from)
-        search.best = std::min(search.best, square(points_[i] - search.from, search.scale));
+      if (points_[i] != search.from || search.shift != Vec3d{}) {
+        const double distance = square((points_[i] - search.from) + search.shift, search.scale);
+        if (distance > search.same_place) search.best = std::min(search.best, distance);
+      }
     return;
   }
   std::pair<double, std::size_t> near{search.square_to(nodes_[at + 1].box), at + 1};

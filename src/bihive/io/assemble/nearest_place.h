@@ -1,9 +1,11 @@
-// The distance from a place to the nearest other one, exact in binary64.
+// The distance from a place to the nearest other one, exact in binary64. Places may repeat along a cell.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "bihive/geometry/lattice.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
@@ -12,11 +14,14 @@ namespace bihive {
 /// make it deep. Equal points share one leaf; any number of them makes a search no longer.
 class NearestPlace {
  public:
-  /// The points must be finite, below 1e39 in size, and at least one.
-  explicit NearestPlace(std::vector<Vec3d> points);
+  /// The points must be finite, below 1e39 in size, and at least one. With a lattice their images are places too, and
+  /// the points are moved into the cell at the origin first.
+  explicit NearestPlace(std::vector<Vec3d> points, const std::optional<Lattice>& lattice = std::nullopt);
 
   /// The distance to the nearest of the points that differs from `from`; infinity if none does. It is the smallest of
-  /// all distances length(point - from), bit for bit, but where their squares would underflow it is exact as well.
+  /// all distances length(point - from), bit for bit, but where their squares would underflow it is exact as well. Of
+  /// a lattice, `from` is one of the places, also where it is not among the points; and what lies nearer to it than a
+  /// millionth of the cell is at its own place, such as a point on the far border of the cell.
   double distance_from(Vec3d from) const;
 
  private:
@@ -37,6 +42,8 @@ class NearestPlace {
   std::size_t part(std::size_t first, std::size_t end, int axis);
   void visit(std::size_t node, Search& search) const;
 
+  std::optional<Lattice> lattice_;
+  Vec3d lowest_share_, highest_share_;
   std::vector<Vec3d> points_;
   std::vector<Node> nodes_;
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bihive/io/read_spheres.h"
 #include "bihive/math/elementary.h"
 
 namespace bihive {
@@ -31,6 +32,15 @@ bool is_placeholder_cell(const std::array<double, 6>& given) {
 
 std::string unreadable_cell(std::int64_t frame) {
   return "frame " + std::to_string(frame) + ": the numbers of its cell make none, so it is left out";
+}
+
+std::optional<Cell> cell_by_options(const std::optional<Cell>& of_file, const ReadOptions& options) {
+  std::optional<Cell> cell = of_file;
+  if (options.cell_vectors) cell = Cell{of_file ? of_file->origin : Vec3d{}, *options.cell_vectors};
+  if (!cell) return cell;
+  if (options.cell_origin) cell->origin = *options.cell_origin;
+  if (!options.periodic) cell->periodic = {false, false, false};
+  return cell;
 }
 
 bool is_finite(const Cell& cell) {

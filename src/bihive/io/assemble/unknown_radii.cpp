@@ -54,12 +54,13 @@ std::vector<Vec3d> search_origins(const RawSpheres& chunk, std::int64_t first, s
   return origins;
 }
 
-std::vector<double> nearest_distances(const RawSpheres& chunk, const std::vector<Vec3d>& origins) {
+std::vector<double> nearest_distances(const RawSpheres& chunk, const std::optional<Cell>& cell,
+                                      const std::vector<Vec3d>& origins) {
   std::vector<double> distances(origins.size(), std::numeric_limits<double>::infinity());
   if (chunk.size() == 0) return distances;
   std::vector<Vec3d> centres(chunk.size());
   for (std::size_t i = 0; i < centres.size(); ++i) centres[i] = {chunk.x[i], chunk.y[i], chunk.z[i]};
-  const NearestPlace nearest(std::move(centres));
+  const NearestPlace nearest(std::move(centres), Lattice::of(cell));
   const std::size_t bundles = (origins.size() + kSearchesOfABundle - 1) / kSearchesOfABundle;
   parallel_for(0, static_cast<std::int64_t>(bundles), [&](std::int64_t bundle) {
     const std::size_t begin = static_cast<std::size_t>(bundle) * kSearchesOfABundle;
@@ -76,10 +77,10 @@ std::optional<double> radius_from_distances(std::vector<double> distances) {
   return std::min(0.5 * *middle, double(std::numeric_limits<float>::max()));  // larger ones are no radii
 }
 
-std::optional<double> radius_from_neighbours(const RawSpheres& spheres) {
+std::optional<double> radius_from_neighbours(const RawSpheres& spheres, const std::optional<Cell>& cell) {
   if (spheres.size() == 0) return std::nullopt;
   return radius_from_distances(
-      nearest_distances(spheres, search_origins(spheres, 0, static_cast<std::int64_t>(spheres.size()))));
+      nearest_distances(spheres, cell, search_origins(spheres, 0, static_cast<std::int64_t>(spheres.size()))));
 }
 
 void fill_radii(RawSpheres& spheres, const UnknownRadii& whole) {

@@ -14,15 +14,16 @@ namespace bihive {
 bool lacks_radii(const RawSpheres& spheres);
 
 /// Half the lower median of the distance from a centre to the nearest centre at another place; nothing if all centres
-/// are at one place. Exact, but for at most 65,536 centres, evenly by id; their neighbours are searched among all. A
-/// million spheres take a third of a second on one core.
-std::optional<double> radius_from_neighbours(const RawSpheres& spheres);
+/// are at one place. Images count as places where the set has a cell, `cell`. Exact, but for at most 65,536 centres,
+/// evenly by id; their neighbours are searched among all. A million spheres take a third of a second on one core.
+std::optional<double> radius_from_neighbours(const RawSpheres& spheres, const std::optional<Cell>& cell);
 
 /// The steps of radius_from_neighbours(), for a set whose spheres lie in several chunks. The centres of `chunk` from
 /// which neighbours are searched; `first` spheres of the whole set, which has `all`, lie before the chunk.
 std::vector<Vec3d> search_origins(const RawSpheres& chunk, std::int64_t first, std::int64_t all);
 /// From each origin the distance to the nearest centre of the chunk at another place; infinite where there is none.
-std::vector<double> nearest_distances(const RawSpheres& chunk, const std::vector<Vec3d>& origins);
+std::vector<double> nearest_distances(const RawSpheres& chunk, const std::optional<Cell>& cell,
+                                      const std::vector<Vec3d>& origins);
 /// The radius by the distances of all origins in the whole set, at least one.
 std::optional<double> radius_from_distances(std::vector<double> distances);
 

@@ -6,10 +6,12 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
+#include "bihive/io/residue_runs.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -112,24 +114,102 @@ Vec3d shortest(Vec3d step, const Shares& shares) {
   return best;
 }
 
-// Each sphere comes to the image that is nearest to the one before it in its molecule, in the order of the file.
-void unwrap_by_molecule(RawSpheres& raw, const Shares& shares, const NamedNumbers& molecule) {
-  std::map<double, Vec3d> last;
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    if (std::isnan(molecule.values[i])) continue;
-    const Vec3d at = place_of(raw, i);
-    const auto [known, is_first] = last.try_emplace(molecule.values[i], at);
-    if (!is_first) known->second = known->second + shortest(at - known->second, shares);
-    put(raw, i, known->second);
+// Which spheres belong together, as far as the file tells: pairs of neighbours in a molecule, and how they are known.
+struct Together {
+  std::vector<std::array<std::size_t, 2>> pairs;
+  std::string known_by;
+};
+
+// Spheres of equal numbers, each with the one before it in the order of the file. Those of NaN belong to no molecule.
+Together by_molecule(const NamedNumbers& molecule) {
+  Together together{{}, "the spheres of a molecule (" + molecule.name + ") each next to the one before"};
+  std::map<double, std::size_t> last;
+  for (std::size_t i = 0; i < molecule.values.size(); ++i) {
+    const double number = molecule.values[i];
+    if (std::isnan(number)) continue;
+    const auto [known, is_first] = last.try_emplace(number, i);
+    if (!is_first) together.pairs.push_back({known->second, i});
+    known->second = i;
   }
-  raw.rules.push_back("unwrapped: the spheres of a molecule (" + molecule.name + ") each next to the one before");
+  return together;
+}
+
+Together by_bonds(const RawSpheres& raw) {
+  Together together{{}, "along the bonds that the file states"};
+  for (const auto& [one, other] : raw.bonds)
+    together.pairs.push_back({static_cast<std::size_t>(one), static_cast<std::size_t>(other)});
+  return together;
+}
+
+Together by_residue(const RawSpheres& raw, const NamedNumbers& number) {
+  Together together{{}, "the spheres of a residue (chain, number and name) each next to the one before"};
+  const std::vector<std::int32_t> residues =
+      residue_runs(raw.attributes, raw.size(), [&](std::size_t i) { return number.values[i]; });
+  for (std::size_t i = 1; i < residues.size(); ++i)
+    if (residues[i] == residues[i - 1]) together.pairs.push_back({i - 1, i});
+  return together;
+}
+
+std::optional<Together> find_together(const RawSpheres& raw) {
+  if (const NamedNumbers* const molecule = column_of(raw, {"mol", "molecule", "mol_id", "molecule_id"}))
+    return by_molecule(*molecule);
+  if (!raw.bonds.empty()) return by_bonds(raw);
+  if (const NamedNumbers* const residue = column_of(raw, {"resid"})) return by_residue(raw, *residue);
+  return std::nullopt;
+}
+
+// Brings each sphere to the image that is nearest to a neighbour which is in its place already. The first sphere of a
+// molecule in the order of the file stays where it is. Returns the molecules, each as the positions of its spheres.
+std::vector<std::vector<std::size_t>> bring_together(RawSpheres& raw, const Shares& shares, const Together& together) {
+  // The neighbours of sphere i are those from begin[i] to before begin[i + 1].
+  std::vector<std::size_t> begin(raw.size() + 1, 0), neighbours(2 * together.pairs.size());
+  for (const auto& pair : together.pairs)
+    for (const std::size_t end : pair) ++begin[end + 1];
+  for (std::size_t i = 0; i < raw.size(); ++i) begin[i + 1] += begin[i];
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const auto& [one, other] : together.pairs) {
+    neighbours[next[one]++] = other;
+    neighbours[next[other]++] = one;
+  }
+  std::vector<std::vector<std::size_t>> molecules;
+  std::vector<bool> is_placed(raw.size(), false);
+  for (std::size_t first = 0; first < raw.size(); ++first) {
+    if (is_placed[first]) continue;
+    std::vector<std::size_t> molecule{first};
+    is_placed[first] = true;
+    for (std::size_t k = 0; k < molecule.size(); ++k) {
+      const Vec3d at = place_of(raw, molecule[k]);
+      for (std::size_t n = begin[molecule[k]]; n < begin[molecule[k] + 1]; ++n) {
+        const std::size_t other = neighbours[n];
+        if (is_placed[other]) continue;
+        is_placed[other] = true;
+        put(raw, other, at + shortest(place_of(raw, other) - at, shares));
+        molecule.push_back(other);
+      }
+    }
+    molecules.push_back(std::move(molecule));
+  }
+  return molecules;
+}
+
+// Moves each molecule, which is whole, so that the mean of its centres is in the cell.
+void wrap_whole(RawSpheres& raw, const Shares& shares, const std::vector<std::vector<std::size_t>>& molecules) {
+  for (const std::vector<std::size_t>& molecule : molecules) {
+    for (int turn = 0; turn < 2; ++turn) {
+      Vec3d middle;
+      for (const std::size_t i : molecule) middle = middle + place_of(raw, i) / double(molecule.size());
+      const Vec3d by = shares.vectors(floors(shares.of(middle - shares.origin())));
+      if (by == Vec3d{}) break;
+      for (const std::size_t i : molecule) put(raw, i, place_of(raw, i) - by);
+    }
+  }
 }
 
 }  // namespace
 
 Status apply_wrapping(RawSpheres& raw, Wrapping wrapping, const std::string& name) {
   if (wrapping == Wrapping::none) return Done{};
-  const std::string what = wrapping == Wrapping::wrap ? "wrap" : "unwrap";
+  const std::string what = wrapping == Wrapping::unwrap ? "unwrap" : "wrap";
   if (!raw.cell)
     return Error{"there is no periodic cell to " + what + " by", name, 0, 0,
                  "give one with " + setting_name("cell_vectors")};
@@ -141,13 +221,20 @@ Status apply_wrapping(RawSpheres& raw, Wrapping wrapping, const std::string& nam
   }
   const std::array<const NamedNumbers*, 3> flags{column_of(raw, {"ix"}), column_of(raw, {"iy"}),
                                                  column_of(raw, {"iz"})};
-  if (flags[0] != nullptr && flags[1] != nullptr && flags[2] != nullptr)
+  if (wrapping == Wrapping::unwrap && flags[0] != nullptr && flags[1] != nullptr && flags[2] != nullptr)
     return unwrap_by_flags(raw, shares, flags, name);
-  const NamedNumbers* const molecule = column_of(raw, {"mol", "molecule", "mol_id", "molecule_id"});
-  if (molecule == nullptr)
-    return Error{"nothing says which spheres belong together", name, 0, 0,
-                 "to unwrap needs columns ix, iy and iz, or a column mol"};
-  unwrap_by_molecule(raw, shares, *molecule);
+  const std::optional<Together> together = find_together(raw);
+  if (!together)
+    return Error{
+        "nothing says which spheres belong together", name, 0, 0,
+        std::string("to ") +
+            (wrapping == Wrapping::unwrap ? "unwrap needs columns ix, iy and iz, or" : "wrap molecules needs") +
+            " a column mol, bonds (MOL2, SDF) or residues (PDB, mmCIF, GRO)"};
+  const std::vector<std::vector<std::size_t>> molecules = bring_together(raw, shares, *together);
+  raw.rules.push_back("unwrapped: " + together->known_by);
+  if (wrapping != Wrapping::wrap_molecules) return Done{};
+  wrap_whole(raw, shares, molecules);
+  raw.rules.push_back("wrapped: every molecule as a whole, its middle into the cell");
   return Done{};
 }
 

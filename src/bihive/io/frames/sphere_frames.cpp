@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "bihive/io/assemble/finish.h"
+#include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/assemble/unknown_radii.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/io/without_throwing.h"
@@ -60,7 +61,8 @@ Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t
   if (is_moved()) {
     // A radius that is a guess is the file's own, so that it is the same in each frame.
     atoms_ = std::move(raw);
-    if (!options_.radius && lacks_radii(atoms_)) atoms_.unknown_radius = radius_from_neighbours(atoms_);
+    if (!options_.radius && lacks_radii(atoms_))
+      atoms_.unknown_radius = radius_from_neighbours(atoms_, cell_by_options(atoms_.cell, options_));
     Result<std::shared_ptr<const Trajectory>> trajectory = open_trajectory(options_.trajectory);
     if (!trajectory) return trajectory.error();
     trajectory_ = std::move(*trajectory);
@@ -121,7 +123,7 @@ std::optional<double> SphereFrames::radius_of_first_frame() const {
   const std::lock_guard<std::mutex> lock(first_radius_lock_);
   if (!first_radius_is_known_)
     if (const Result<RawSpheres> first = frames_->read(0); first && lacks_radii(*first))
-      first_radius_ = radius_from_neighbours(*first);
+      first_radius_ = radius_from_neighbours(*first, cell_by_options(first->cell, options_));
   first_radius_is_known_ = true;
   return first_radius_;
 }

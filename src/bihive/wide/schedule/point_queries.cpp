@@ -19,6 +19,9 @@ namespace bihive {
 namespace wide {
 namespace {
 
+// Lists of more images of one sphere are a mistake.
+constexpr double kMostImages = 1e6;
+
 constexpr double kInfiniteDistance = std::numeric_limits<double>::infinity();
 
 Error no_memory_for_points(std::int64_t points) {
@@ -83,6 +86,13 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
   if (Status status = check_points(points); !status) return status.error();
   for (std::int64_t i = 0; i < points.count; ++i)
     if (std::isnan(limit(i))) return bad_point(i, "the limit must be a number", limit(i));
+  if (options.images != nullptr) {
+    double largest = 0;
+    for (std::int64_t i = 0; i < points.count; ++i) largest = std::max(largest, limit(i));
+    if (!(options.images->images_within(largest * tree.scale) <= kMostImages))
+      return Error{"the limit of the distance reaches more than a million images of the periodic cell", "", 0, 0,
+                   "ask for a smaller distance, or without images"};
+  }
   try {
     SphereLists lists;
     lists.begin.assign(static_cast<std::size_t>(points.count) + 1, 0);
@@ -98,9 +108,15 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
           const std::size_t known = here.size();
-          find_within(tree, {tree.stored(points.at(i)), limit(i) * tree.scale, options.to, options.mask}, here);
+          const PointQuestion question{tree.stored(points.at(i)), limit(i) * tree.scale, options.to, options.mask};
+          if (options.images != nullptr)
+            options.images->find_within(tree, question, here);
+          else
+            find_within(tree, question, here);
           std::sort(here.begin() + static_cast<std::ptrdiff_t>(known), here.end(),
-                    [](const NearSphere& a, const NearSphere& b) { return a.id < b.id; });
+                    [](const NearSphere& a, const NearSphere& b) {
+                      return a.id != b.id ? a.id < b.id : a.distance < b.distance;
+                    });
           count_of(i) = static_cast<std::int64_t>(here.size() - known);
         },
         [&](std::int64_t first, const std::vector<std::uint32_t>& order) {
@@ -149,15 +165,17 @@ Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& po
     nearest.distance.resize(entries, wide::kInfiniteDistance);
     nearest.sphere_id.resize(entries, kNothing);
     const double unit = 1 / tree.scale;
-    const std::int64_t most = std::min(per_point, std::max<std::int64_t>(1, tree.size));
+    const bool periodic = options.images != nullptr;
+    const std::int64_t most = periodic ? per_point : std::min(per_point, std::max<std::int64_t>(1, tree.size));
     std::vector<std::vector<wide::NearSphere>> rooms;
     const bool done = wide::for_each_point(
         tree, points, options.threads, [&](std::int64_t chunks) { rooms.resize(static_cast<std::size_t>(chunks)); },
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
           room.resize(static_cast<std::size_t>(most));
-          const std::int64_t count = wide::find_nearest(
-              tree, {tree.stored(points.at(i)), within * tree.scale, options.to, options.mask}, most, room.data());
+          const wide::PointQuestion question{tree.stored(points.at(i)), within * tree.scale, options.to, options.mask};
+          const std::int64_t count = periodic ? options.images->find_nearest(tree, question, most, room.data())
+                                              : wide::find_nearest(tree, question, most, room.data());
           for (std::int64_t k = 0; k < count; ++k) {
             const auto to = static_cast<std::size_t>(i * per_point + k);
             nearest.distance[to] = room[static_cast<std::size_t>(k)].distance * unit;

@@ -28,10 +28,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 class PointWalk {
  public:
   PointWalk(const WideTree& tree, const wide::PointQuestion& question)
-      : tree_(tree), question_(question), in_tree_(question.point) {
+      : tree_(tree), question_(question), in_tree_(question.point - question.shift) {
     // The nodes of an image are where the tree has them.
-    if (tree.is_image) in_tree_ = question.point - tree.shift;
-    const double farthest = std::max({std::abs(in_tree_.x), std::abs(in_tree_.y), std::abs(in_tree_.z)}) + 2.0;
+    if (tree.is_image) in_tree_ = in_tree_ - tree.shift;
+    const auto largest = [](Vec3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+    double farthest = largest(in_tree_) + 2.0;
+    if (question.shift != Vec3d{}) farthest += largest(question.point) + largest(question.shift);
     pad_ = (tree.is_image ? 0x1p-23 : 0x1p-24) + 0x1p-46 * farthest;
     // A lower bound of all radii.
     const WideSpheres& spheres = tree.spheres;
@@ -121,7 +123,7 @@ class PointWalk {
     }
   }
 
-  // sphere_distance() of kWidth spheres from `first` on.
+  // image_distance() of kWidth spheres from `first` on.
   HWY_INLINE void find_distances(std::int64_t first, double distances[kWidth]) const {
     const Tag d;
     const Half half;
@@ -130,12 +132,14 @@ class PointWalk {
     if (question_.to == DistanceTo::surface)
       for (int i = 0; i < kWidth; i += kFloatLanes) hn::Store(load_radii(spheres, first + i), FloatTag(), radii + i);
     for (int i = 0; i < kWidth; i += kLanes) {
-      const auto between = [&](const float* centres, double p) HWY_ATTR {
-        return hn::Sub(hn::PromoteTo(d, hn::LoadU(half, centres + first + i)), hn::Set(d, p));
+      const auto between = [&](const float* centres, int axis) HWY_ATTR {
+        const auto own =
+            hn::Sub(hn::PromoteTo(d, hn::LoadU(half, centres + first + i)), hn::Set(d, question_.point[axis]));
+        return hn::Add(own, hn::Set(d, question_.shift[axis]));
       };
-      const auto x = between(spheres.x, question_.point.x);
-      const auto y = between(spheres.y, question_.point.y);
-      const auto z = between(spheres.z, question_.point.z);
+      const auto x = between(spheres.x, 0);
+      const auto y = between(spheres.y, 1);
+      const auto z = between(spheres.z, 2);
       auto distance = hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));
       if (question_.to == DistanceTo::surface)
         distance = hn::Sub(distance, hn::PromoteTo(d, hn::LoadU(half, radii + i)));
@@ -152,8 +156,8 @@ class PointWalk {
         find_distances(begin, distances);
       } else {
         for (int i = 0; i < here; ++i)
-          distances[i] =
-              sphere_distance(question_.point, tree_.centre(begin + i), tree_.spheres.radius(begin + i), question_.to);
+          distances[i] = image_distance(question_.point, tree_.centre(begin + i), question_.shift,
+                                        tree_.spheres.radius(begin + i), question_.to);
       }
       for (int i = 0; i < here; ++i)
         if (distances[i] <= answer.limit()) take(distances[i], tree_.spheres.id(begin + i), answer);

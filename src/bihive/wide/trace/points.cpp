@@ -44,8 +44,9 @@ struct AllAnswers {
 };
 
 std::int64_t find_nearest_on_target(const WideTree& tree, const wide::PointQuestion& question, std::int64_t most,
-                                    wide::NearSphere* nearest) {
-  NearestAnswers answer{question.limit, most, nearest};
+                                    wide::NearSphere* nearest, std::int64_t known) {
+  NearestAnswers answer{question.limit, most, nearest, known};
+  std::make_heap(nearest, nearest + known);
   PointWalk(tree, question).run(answer);
   std::sort_heap(nearest, nearest + answer.count);
   return answer.count;
@@ -69,9 +70,10 @@ HWY_EXPORT(find_within_on_target);
 
 namespace wide {
 
-std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, std::int64_t most, NearSphere* nearest) {
+std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, std::int64_t most, NearSphere* nearest,
+                          std::int64_t known) {
   ensure_target();
-  return HWY_DYNAMIC_DISPATCH(find_nearest_on_target)(tree, question, most, nearest);
+  return HWY_DYNAMIC_DISPATCH(find_nearest_on_target)(tree, question, most, nearest, known);
 }
 
 void find_within(const WideTree& tree, const PointQuestion& question, std::vector<NearSphere>& found) {

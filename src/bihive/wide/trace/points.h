@@ -21,16 +21,19 @@ inline bool operator<(const NearSphere& a, const NearSphere& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.id < b.id;
 }
 
-/// The spheres at a distance of at most `limit` from `point`; stored units.
+/// The spheres, each moved by `shift`, at a distance of at most `limit` from `point`; stored units.
 struct PointQuestion {
   Vec3d point;
   double limit;
   DistanceTo to;
   const std::uint8_t* mask;  ///< null: all spheres
+  Vec3d shift{};
 };
 
-/// The nearest `most` of them, in order, to `nearest`, which has room for as many. Returns how many there are.
-std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, std::int64_t most, NearSphere* nearest);
+/// The nearest `most` of them, in order, to `nearest`, which has room for as many. Returns how many there are. `known`:
+/// as many are there already, from other shifts.
+std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, std::int64_t most, NearSphere* nearest,
+                          std::int64_t known = 0);
 
 /// Appends all of them to `found`, in any order.
 void find_within(const WideTree& tree, const PointQuestion& question, std::vector<NearSphere>& found);

@@ -54,6 +54,8 @@ class Mol2Reader {
         status = read_molecule();
       else if (section == "ATOM")
         status = read_atoms();
+      else if (section == "BOND" && is_wanted() && has_atoms_)
+        read_bonds();
       else if (section == "CRYSIN" && is_wanted())
         status = read_cell();
       if (!status) return status.error();
@@ -143,6 +145,19 @@ class Mol2Reader {
     return Done{};
   }
 
+  // "id origin target type", until a line that is none. A bond to an atom that is not there counts as none.
+  void read_bonds() {
+    for (;;) {
+      TextScanner ahead(scanner_);
+      if (!ahead.next_filled_line() || trim(ahead.line())[0] == '@') return;
+      scanner_.next_filled_line();
+      std::string_view id, origin, target;
+      if (trim(scanner_.line())[0] == '#') continue;
+      if (!scanner_.next_field(id) || !scanner_.next_field(origin) || !scanner_.next_field(target)) continue;
+      add_bond(spheres_, parse_int(origin), parse_int(target));
+    }
+  }
+
   // "a b c alpha beta gamma group setting"
   Status read_cell() {
     if (!next_line()) return scanner_.line_error("the file ends before the numbers of the cell");
@@ -178,7 +193,7 @@ class Mol2Reader {
     attributes.texts.push_back(printable_texts(names_.take("name")));
     attributes.texts.push_back(printable_texts(residues_.take("resname")));
     attributes.texts.push_back(printable_texts(types_.take("type")));
-    spheres_.rules.push_back("elements: by the types, else by names; bonds are left out");
+    spheres_.rules.push_back("elements: by the types, else by names; bonds are read to unwrap alone");
   }
 
   TextScanner scanner_;

@@ -96,8 +96,11 @@ class SdfReader {
       if (!wanted) continue;
       if (Status atom = read_atom(); !atom) return atom;
     }
-    for (std::int64_t i = 0; i < *bonds; ++i)
+    for (std::int64_t i = 0; i < *bonds; ++i) {
       if (!scanner_.next_line()) return cut(std::to_string(*bonds) + " bonds");
+      const std::string_view bond = scanner_.line();
+      if (wanted) add_bond(spheres_, parse_int(columns_of_line(bond, 0, 3)), parse_int(columns_of_line(bond, 3, 3)));
+    }
     return read_properties(wanted);
   }
 
@@ -168,7 +171,7 @@ class SdfReader {
   Status read_v3000(bool wanted) {
     std::optional<std::int64_t> atoms;
     std::int64_t found = 0;
-    bool in_atoms = false;
+    bool in_atoms = false, in_bonds = false;
     while (scanner_.next_line()) {
       const std::string_view line = trim(scanner_.line());
       if (line == "M  END" || is_end_of_record(line)) {
@@ -186,6 +189,10 @@ class SdfReader {
         in_atoms = true;
       } else if (rest == "END ATOM") {
         in_atoms = false;
+      } else if (rest == "BEGIN BOND" || rest == "END BOND") {
+        in_bonds = rest == "BEGIN BOND";
+      } else if (in_bonds) {
+        if (wanted) read_v3000_bond();
       } else if (rest.substr(0, 7) == "COUNTS ") {
         if (atoms) return scanner_.line_error("the counts come twice");
         skip_fields(3);
@@ -200,6 +207,13 @@ class SdfReader {
       }
     }
     return cut("M  END");
+  }
+
+  // "M  V30 index type atom1 atom2 ...", with positions in place of the atoms' indices, as in files of version 2000.
+  void read_v3000_bond() {
+    skip_fields(4);
+    std::string_view one, other;
+    if (scanner_.next_field(one) && scanner_.next_field(other)) add_bond(spheres_, parse_int(one), parse_int(other));
   }
 
   void skip_fields(int count) {
@@ -233,7 +247,7 @@ class SdfReader {
     const auto is_charged = [](double charge) { return charge != 0; };
     if (std::any_of(charge_.values.begin(), charge_.values.end(), is_charged))
       attributes.numbers.push_back(std::move(charge_));
-    spheres_.rules.push_back("elements: the symbols of the atoms; bonds are left out");
+    spheres_.rules.push_back("elements: the symbols of the atoms; bonds are read to unwrap alone");
   }
 
   TextScanner scanner_;

@@ -89,6 +89,9 @@ Result<std::optional<Cell>> cell_of(const TextScanner& scanner, const XyzComment
       return scanner.line_error("expected three finite numbers in Origin but found " + quote(*origin));
     cell.origin = {(*corner)[0], (*corner)[1], (*corner)[2]};
   }
+  // Other values than three truths are passed over, as all unknown keys are.
+  if (const auto flags = comment.find("pbc"))
+    if (const auto periodic = xyz_flags(*flags)) cell.periodic = *periodic;
   return std::optional<Cell>(cell);
 }
 

@@ -116,4 +116,24 @@ std::optional<std::vector<double>> xyz_numbers(std::string_view value) {
   return numbers;
 }
 
+std::optional<std::array<bool, 3>> xyz_flags(std::string_view value) {
+  std::vector<bool> flags;
+  const auto is_between = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == '[' || c == ']'; };
+  for (std::size_t at = 0; at < value.size();) {
+    if (is_between(value[at])) {
+      ++at;
+      continue;
+    }
+    std::size_t stop = at;
+    while (stop < value.size() && !is_between(value[stop])) ++stop;
+    const std::string word = lower_case(value.substr(at, stop - at));
+    const bool yes = word == "t" || word == "true" || word == ".true." || word == "1";
+    if (!yes && word != "f" && word != "false" && word != ".false." && word != "0") return std::nullopt;
+    flags.push_back(yes);
+    at = stop;
+  }
+  if (flags.size() != 3) return std::nullopt;
+  return std::array<bool, 3>{flags[0], flags[1], flags[2]};
+}
+
 }  // namespace bihive

@@ -1,6 +1,7 @@
 // The comment of a frame of extended XYZ [ExtXYZ]: keys and values.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,5 +33,8 @@ class XyzComment {
 /// The numbers of a vector or matrix, row after row: "1 2 3", "1, 2, 3", "[1, 2], [3, 4]". Nothing: something in it is
 /// no finite number.
 std::optional<std::vector<double>> xyz_numbers(std::string_view value);
+
+/// Three truths: "T T F", "[True, True, False]", "1 1 0". Nothing: they are others.
+std::optional<std::array<bool, 3>> xyz_flags(std::string_view value);
 
 }  // namespace bihive

@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bihive/geometry/ray.h"
+#include "bihive/math/rng.h"
+#include "bihive/wide/point_queries.h"
+#include "bihive/wide/trace/points.h"
+#include "bihive/wide/wide_builder.h"
+
+namespace bihive {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+struct PeriodicSet {
+  SphereSet spheres;
+  std::shared_ptr<const WideTree> tree;
+  std::optional<PeriodicImages> images;
+
+  PeriodicSet(const std::vector<Vec3d>& centres, double radius, const Cell& cell) {
+    std::vector<double> x, y, z, r;
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      x.push_back(centres[i].x), y.push_back(centres[i].y), z.push_back(centres[i].z);
+      r.push_back(radius * (1 + double(i % 3)));
+    }
+    spheres = SphereSet::from_world(x, y, z, r).value();
+    spheres.cell() = cell;
+    WideBuilder builder;
+    tree = builder.build(spheres).value();
+    images = PeriodicImages::of(spheres).value();
+  }
+  PointOptions options(DistanceTo to) const {
+    PointOptions options;
+    options.to = to;
+    options.images = images ? &*images : nullptr;
+    return options;
+  }
+};
+
+// All images of all spheres, moved by -reach to reach along each periodic vector, within a distance: world units.
+std::vector<wide::NearSphere> all_within(const PeriodicSet& set, Vec3d point, double limit, DistanceTo to, int reach) {
+  const SphereSet& spheres = set.spheres;
+  std::array<Vec3d, 3> vectors = spheres.cell()->vectors;
+  std::array<int, 3> most{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    most[k] = spheres.cell()->periodic[k] && vectors[k] != Vec3d{} ? reach : 0;
+    vectors[k] = vectors[k] * spheres.scale();
+  }
+  std::vector<wide::NearSphere> found;
+  for (std::int64_t id = 0; id < spheres.size(); ++id)
+    for (int i = -most[0]; i <= most[0]; ++i)
+      for (int j = -most[1]; j <= most[1]; ++j)
+        for (int k = -most[2]; k <= most[2]; ++k) {
+          const Vec3d shift = double(i) * vectors[0] + double(j) * vectors[1] + double(k) * vectors[2];
+          const double distance =
+              image_distance(point * spheres.scale(), spheres.stored_centre(id), shift, spheres.stored_radius(id), to);
+          if (distance <= limit * spheres.scale()) found.push_back({distance * spheres.inverse_scale(), id});
+        }
+  return found;
+}
+
+TEST(PeriodicPoints, AgreeWithAllImages) {
+  Cell slab{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}};
+  slab.periodic[2] = false;
+  const std::vector<Cell> cells{{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}},
+                                {{}, {Vec3d{4, 0, 0}, Vec3d{1.9, 3, 0}, Vec3d{-1.5, 1.2, 5}}},
+                                {{}, {Vec3d{-2, 1, 0.5}, Vec3d{1.9, 3, 0}, Vec3d{0.25, 1.2, -2}}},
+                                {{}, {Vec3d{4, 0, 0}, Vec3d{}, Vec3d{1, 0, 3}}},
+                                {{}, {Vec3d{}, Vec3d{0, 2, 0.5}, Vec3d{}}},
+                                slab};
+  SplitMix64 random(11);
+  const auto in_cell = [&](const Cell& cell) {
+    return random.next_double() * cell.vectors[0] + random.next_double() * cell.vectors[1] +
+           random.next_double() * cell.vectors[2];
+  };
+  for (const Cell& cell : cells)
+    for (const bool is_scattered : {false, true}) {
+      std::vector<Vec3d> centres, points;
+      for (int i = 0; i < 12; ++i) {
+        centres.push_back(in_cell(cell));
+        if (is_scattered && i % 3 == 0)
+          centres.back() = centres.back() + double(random.next_below(4)) * cell.vectors[0] - 2.0 * cell.vectors[1];
+      }
+      centres.push_back(centres[4]);
+      for (int i = 0; i < 8; ++i) points.push_back(in_cell(cell) + (i % 2 == 0 ? 1.0 : -2.0) * cell.vectors[1]);
+      points.push_back(centres[0]);
+      const PeriodicSet set(centres, 0.1, cell);
+      ASSERT_TRUE(set.images);
+      std::vector<double> xyz;
+      for (const Vec3d& p : points) xyz.insert(xyz.end(), {p.x, p.y, p.z});
+      const PointSpan span = PointSpan::rows(xyz.data(), static_cast<std::int64_t>(points.size()));
+      for (const DistanceTo to : {DistanceTo::centre, DistanceTo::surface}) {
+        for (const double limit : {-0.05, 0.0, 0.7, 3.0}) {
+          const SphereLists lists = spheres_within(*set.tree, span, limit, set.options(to)).value();
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            std::vector<wide::NearSphere> expected = all_within(set, points[i], limit, to, 8);
+            std::sort(expected.begin(), expected.end(), [](const auto& a, const auto& b) {
+              return a.id != b.id ? a.id < b.id : a.distance < b.distance;
+            });
+            const auto first = static_cast<std::size_t>(lists.begin[i]);
+            ASSERT_EQ(lists.begin[i + 1] - lists.begin[i], static_cast<std::int64_t>(expected.size()))
+                << limit << ' ' << is_scattered << ' ' << i;
+            for (std::size_t k = 0; k < expected.size(); ++k) {
+              EXPECT_EQ(lists.sphere_id[first + k], expected[k].id);
+              EXPECT_EQ(lists.distance[first + k], expected[k].distance);
+            }
+          }
+        }
+        for (const std::int64_t most : {1, 5, 40}) {
+          const NearestSpheres nearest = nearest_spheres(*set.tree, span, most, kInf, set.options(to)).value();
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            std::vector<wide::NearSphere> expected = all_within(set, points[i], kInf, to, 8);
+            std::sort(expected.begin(), expected.end());
+            for (std::size_t k = 0; k < std::size_t(most) && k < expected.size(); ++k) {
+              if (expected.size() < 200 && k >= expected.size() / 4) break;  // farther ones are not among them all
+              const std::size_t at = i * std::size_t(most) + k;
+              EXPECT_EQ(nearest.distance[at], expected[k].distance) << most << ' ' << is_scattered;
+              EXPECT_EQ(nearest.sphere_id[at], expected[k].id);
+            }
+          }
+        }
+      }
+    }
+}
+
+TEST(PeriodicPoints, EveryAtomOfACrystalHasTwelveNeighbours) {
+  // Face-centred cubic: the primitive cell with one atom, and 2 x 2 x 2 cubic cells.
+  const PeriodicSet primitive({Vec3d{}}, 0.1, {{}, {Vec3d{0, 1, 1}, Vec3d{1, 0, 1}, Vec3d{1, 1, 0}}});
+  const double origin[3] = {};
+  const SphereLists lists =
+      spheres_within(*primitive.tree, PointSpan::rows(origin, 1), 1.5, primitive.options(DistanceTo::centre)).value();
+  EXPECT_EQ(lists.begin[1], 13);  // with the atom itself
+  std::vector<Vec3d> centres;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 4; ++k)
+        if ((i + j + k) % 2 == 0) centres.push_back({double(i), double(j), double(k)});
+  const PeriodicSet cubic(centres, 0.1, {{}, {Vec3d{4, 0, 0}, Vec3d{0, 4, 0}, Vec3d{0, 0, 4}}});
+  std::vector<double> xyz;
+  for (const Vec3d& p : centres) xyz.insert(xyz.end(), {p.x, p.y, p.z});
+  const PointSpan span = PointSpan::rows(xyz.data(), static_cast<std::int64_t>(centres.size()));
+  const SphereLists near = spheres_within(*cubic.tree, span, 1.5, cubic.options(DistanceTo::centre)).value();
+  for (std::size_t i = 0; i < centres.size(); ++i) EXPECT_EQ(near.begin[i + 1] - near.begin[i], 13);
+  const NearestSpheres thirteen =
+      nearest_spheres(*cubic.tree, span, 14, kInf, cubic.options(DistanceTo::centre)).value();
+  EXPECT_EQ(thirteen.distance[12], std::sqrt(2.0));
+  EXPECT_EQ(thirteen.distance[13], 2);
+}
+
+TEST(PeriodicPoints, HostileQuestionsEnd) {
+  const Cell cell{{}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
+  // One sphere lies a million cells away from the others.
+  PeriodicSet set({Vec3d{0.5, 0.5, 0.5}, Vec3d{1e6, 0, 0}}, 0.1, cell);
+  const double points[6] = {0, 0, 0, -1e7, 3, 0.5};
+  PointOptions options = set.options(DistanceTo::centre);
+  const NearestSpheres nearest = nearest_spheres(*set.tree, PointSpan::rows(points, 2), 1, kInf, options).value();
+  EXPECT_EQ(nearest.sphere_id, (std::vector<std::int64_t>{1, 1}));
+  EXPECT_EQ(nearest.distance[0], 0);
+  const std::uint8_t none[2] = {0, 0};
+  options.mask = none;
+  for (const double within : {kInf, 1e30, 2.0}) {
+    const NearestSpheres nothing = nearest_spheres(*set.tree, PointSpan::rows(points, 2), 3, within, options).value();
+    EXPECT_EQ(nothing.sphere_id, std::vector<std::int64_t>(6, kNothing));
+  }
+  options.mask = nullptr;
+  EXPECT_FALSE(spheres_within(*set.tree, PointSpan::rows(points, 2), kInf, options));
+  EXPECT_FALSE(spheres_within(*set.tree, PointSpan::rows(points, 2), 1e4, options));
+  const NearestSpheres far = nearest_spheres(*set.tree, PointSpan::rows(points, 1), 9, 1e30, options).value();
+  EXPECT_NE(far.sphere_id[8], kNothing);
+  set.spheres.cell() = Cell{};
+  EXPECT_FALSE(PeriodicImages::of(set.spheres).value());
+}
+
+}  // namespace
+}  // namespace bihive
