@@ -54,7 +54,8 @@ void FrameNames::put_in_order(std::int64_t frame, RawSpheres& spheres, const Rea
       number_of_text.push_back(column.number_of.at(text));
       last = std::max(last, number_of_text.back());
     }
-    if (std::is_sorted(number_of_text.begin(), number_of_text.end()) && last + 1 == std::ssize(number_of_text)) continue;
+    if (std::is_sorted(number_of_text.begin(), number_of_text.end()) && last + 1 == std::ssize(number_of_text))
+      continue;
     const bool gives_types = texts.name == "type" && follow_labels(spheres.attributes.type, texts);
     for (std::int32_t& text : texts.text_of_sphere) text = number_of_text[static_cast<std::size_t>(text)];
     texts.texts.assign(column.names.begin(), column.names.begin() + last + 1);
