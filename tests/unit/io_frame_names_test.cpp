@@ -81,6 +81,26 @@ TEST(FrameNames, ChainsAndNumbersOfTypes) {
   EXPECT_EQ(types_of(read_text(dump, "a.dump", at_frame(1))), (Types{9, 2}));
 }
 
+// Thousands of molecules, each of which costs reading the file: only the first one and the frame's own names count.
+TEST(FrameNames, FilesThatAreReadWholeForEachFrame) {
+  const auto molecule = [](const std::vector<std::string>& names) {
+    std::string text =
+        "@<TRIPOS>MOLECULE\nm\n" + std::to_string(names.size()) + " 0 0 0 0\nSMALL\nNO_CHARGES\n\n@<TRIPOS>ATOM\n";
+    for (std::size_t i = 0; i < names.size(); ++i)
+      text += std::to_string(i + 1) + " " + names[i] + " " + std::to_string(2 * i) + " 0 0 C.3 1 LIG 0\n";
+    return text;
+  };
+  const std::string text = molecule({"C1", "C2"}) + molecule({"C3", "C2"}) + molecule({"C4", "C3", "C1"});
+  const auto numbers = [&](std::int64_t frame) {
+    const SphereFile file = read_text(text, "a.mol2", at_frame(frame));
+    const NamedTexts* const names = file.spheres.attributes().find_texts("name");
+    return names == nullptr ? Types() : names->text_of_sphere;
+  };
+  EXPECT_EQ(numbers(0), (Types{0, 1}));
+  EXPECT_EQ(numbers(1), (Types{2, 1}));
+  EXPECT_EQ(numbers(2), (Types{2, 3, 0}));
+}
+
 TEST(FrameNames, AnEmptyFrameSaysItsNumber) {
   const std::string text = xyz({{"AA"}, {}, {"BB"}});
   EXPECT_EQ(error_of(text, "a.xyz", at_frame(1)), "a.xyz: there are no spheres in frame 1 (read as XYZ)");

@@ -165,6 +165,19 @@ TEST(IdOrder, ExtendedXyzAndLammpsDataFollowIds) {
   }
 }
 
+// Beads of a chain follow each other by id, not as the processors of a simulation held them.
+TEST(IdOrder, ChainsAreUnwrappedById) {
+  std::vector<std::string> rows;
+  for (const int id : {4, 18, 1, 10, 13, 6, 20, 2, 9, 15, 7, 3, 12, 17, 5, 11, 19, 8, 14, 16})
+    rows.push_back(std::to_string(id) + " 1 " + std::to_string((id - 1) % 10) + ".5 5 5 0.5");
+  ReadOptions options;
+  options.wrapping = Wrapping::unwrap;
+  const SphereFile file = read_text(dump("id mol x y z radius", rows), "d", options);
+  ASSERT_EQ(file.spheres.size(), 20);
+  for (std::int64_t id = 1; id < 20; ++id)
+    EXPECT_EQ(file.spheres.centre(id).x - file.spheres.centre(id - 1).x, 1) << id;
+}
+
 // A table is what its rows are: nothing moves from frame to frame, and other programs count its rows.
 TEST(IdOrder, TablesKeepTheirRows) {
   EXPECT_EQ(read_text("id,x,y,z,r\n3,3,0,0,1\n1,1,0,0,1\n", "a.csv").spheres.centre(0).x, 3);

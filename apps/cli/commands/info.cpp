@@ -145,13 +145,13 @@ void print_json(const Facts& facts) {
   print(json.dump(2, ' ', true, ordered_json::error_handler_t::replace) + "\n");
 }
 
-// "A 99, B 99": the residues of each name, and how many names there are beyond the first.
-std::string text_of(const std::vector<CountedName>& names) {
+// "A 99 residues, B 99": of each name, and how many names there are beyond the first.
+std::string text_of(const std::vector<CountedName>& names, const std::string& unit = "") {
   constexpr std::size_t kMostShown = 12;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kMostShown); ++i)
-    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", names[i].name.empty() ? "(none)" : names[i].name,
-                        grouped(names[i].residues));
+    text += fmt::format("{}{} {}{}", i == 0 ? "" : ", ", names[i].name.empty() ? "(none)" : names[i].name,
+                        grouped(names[i].residues), i == 0 ? unit : "");
   if (names.size() > kMostShown) text += fmt::format(" and {} others", names.size() - kMostShown);
   return text;
 }
@@ -173,7 +173,7 @@ void print_text(const Facts& facts, bool with_trees) {
     row("time span", fmt::format("{:.9g} to {:.9g} ps in {} frames", facts.time_span_ps->first,
                                  facts.time_span_ps->second, grouped(facts.input.frames)));
   const Content& content = facts.content;
-  if (!content.chains.empty()) row("chains", text_of(content.chains));
+  if (!content.chains.empty()) row("chains", text_of(content.chains, " residues"));
   if (!content.kinds.empty()) row("residues", text_of(content.kinds));
   if (!content.ligands.empty()) row("ligands and ions", text_of(content.ligands));
   if (content.molecules) row("molecules", grouped(*content.molecules));

@@ -35,19 +35,22 @@ bool FrameNames::knows_all(const RawSpheres& spheres) const {
   });
 }
 
-void FrameNames::put_in_order(std::int64_t frame, RawSpheres& spheres, const ReadFrame& read) {
+void FrameNames::put_in_order(std::int64_t frame, RawSpheres& spheres, bool reads_each_apart, const ReadFrame& read) {
   if (spheres.attributes.texts.empty()) return;
   const std::lock_guard<std::mutex> lock(lock_);
   // The frames before this one, as far as it matters.
-  while (noted_ < frame && (noted_ == 0 || !knows_all(spheres))) {
+  const std::int64_t matter = reads_each_apart ? frame : std::min<std::int64_t>(frame, 1);
+  while (noted_ < matter && (noted_ == 0 || !knows_all(spheres))) {
     const Result<RawSpheres> before = read(noted_);
     note(before ? *before : RawSpheres());
   }
-  if (noted_ == frame) note(spheres);
+  if (noted_ == frame && (reads_each_apart || frame == 0)) note(spheres);
   if (frame == 0) return;
   for (NamedTexts& texts : spheres.attributes.texts) {
-    Column& column = columns_[texts.name];
-    column.add(texts);  // all are known, unless the file changes
+    Column own;
+    if (!reads_each_apart) own = columns_[texts.name];
+    Column& column = reads_each_apart ? columns_[texts.name] : own;
+    column.add(texts);  // all are known where each frame is read apart, unless the file changes
     std::vector<std::int32_t> number_of_text;
     std::int32_t last = -1;
     for (const std::string& text : texts.texts) {

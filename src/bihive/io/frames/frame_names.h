@@ -17,8 +17,9 @@
 
 namespace bihive {
 
-/// Numbers the names in the order in which they first appear in the file, frame after frame. Any number of threads may
-/// use it at a time.
+/// Numbers the names in the order in which they first appear in the file, frame after frame. Where each frame costs
+/// reading the whole file, those of the first frame come first, then the frame's own. Any number of threads may use it
+/// at a time.
 class FrameNames {
  public:
   using ReadFrame = std::function<Result<RawSpheres>(std::int64_t frame)>;
@@ -26,7 +27,7 @@ class FrameNames {
   /// Puts the frame's names into that order, those of other frames between them, and the types that are numbered after
   /// labels. The first frame stays as it is, and of another one a name that the frames before have not shown yet costs
   /// reading these. A frame that cannot be read has no names.
-  void put_in_order(std::int64_t frame, RawSpheres& spheres, const ReadFrame& read);
+  void put_in_order(std::int64_t frame, RawSpheres& spheres, bool reads_each_apart, const ReadFrame& read);
 
  private:
   struct Column {

@@ -66,6 +66,7 @@ class BytesInMemory : public RawFrames {
   Result<RawSpheres> read(std::int64_t frame) const override {
     return read_bytes(format_, bytes_, name_, frame, columns_);
   }
+  bool reads_each_apart() const override { return std::holds_alternative<TextReader>(format_.reader); }
 
  private:
   std::string_view bytes_;
@@ -87,6 +88,7 @@ class WholeFile : public RawFrames {
     if (!bytes) return bytes.error();
     return read_bytes(format_, *bytes, file_.path(), frame, columns_);
   }
+  bool reads_each_apart() const override { return false; }
   Status look_at_end() {
     const Result<std::string> last = file_.read(file_.size() - 1, 1);
     if (!last) return last.error();

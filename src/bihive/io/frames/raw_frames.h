@@ -20,6 +20,8 @@ class RawFrames {
 
   /// Errors: those of the reader; no such frame; the file changed meanwhile.
   virtual Result<RawSpheres> read(std::int64_t frame) const = 0;
+  /// Whether a frame is read by its own bytes, so that reading all frames costs one pass over the file.
+  virtual bool reads_each_apart() const { return true; }
   /// A file of text whose last line has no end.
   bool may_be_cut() const { return may_be_cut_; }
   /// As Frames::warnings().

@@ -141,7 +141,8 @@ Result<SphereFile> SphereFrames::made_of(RawSpheres raw, std::int64_t frame) con
   if (is_moved())
     if (Status status = take_places(frame, raw); !status) return status.error();
   if (!is_moved() && raw.frames > 1)
-    names_.put_in_order(frame, raw, [this](std::int64_t other) { return frames_->read(other); });
+    names_.put_in_order(frame, raw, frames_->reads_each_apart(),
+                        [this](std::int64_t other) { return frames_->read(other); });
   if (frames_->may_be_cut()) raw.warnings.push_back("the last line of " + name_ + " has no end: the file may be cut");
   if (!options_.assembly.empty())
     if (Status status = expand_assembly(raw, options_.assembly, name_); !status) return status.error();
