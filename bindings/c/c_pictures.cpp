@@ -103,7 +103,8 @@ void set_option(bihive_scene& scene, const std::string& id, const char* value) {
   const bool of_spheres = is_of_spheres(id);
   if (value == nullptr || row == nullptr || !row->repeatable)
     std::erase_if(scene.settings, [&](const auto& one) {
-      return one.first == id || one.first == "no_" + id || (of_spheres && is_of_spheres(one.first));
+      const bool is_counterpart = one.first == "no_" + id || "no_" + one.first == id;
+      return one.first == id || is_counterpart || (of_spheres && is_of_spheres(one.first));
     });
   if (value == nullptr) return;
   if (row == nullptr || !is_off(*row, value))

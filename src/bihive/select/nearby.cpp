@@ -95,10 +95,13 @@ bool NearbyPoints::any_within(Vec3d centre, double distance) const {
   // condition() times as long as the sum of all.
   const double pad = 0x1p-46 * lattice_->condition() * (largest + searched + lattice_->longest());
   const double kept = (distance + pad) * (distance + pad);
+  const double sure = distance > pad ? (distance - pad) * (distance - pad) * (1 - 0x1p-50) : -1;
   return any_image(range, [&](const ImageCounts& counts) {
     const Vec3d moved = at - lattice_->shift(counts);
     return any_point(moved, kept, [&](const Point& point) {
-      if (!(squared_distance(point.at, moved) <= kept)) return false;
+      const double squared = squared_distance(point.at, moved);
+      if (squared <= sure) return true;
+      if (!(squared <= kept)) return false;
       const Vec3d given = given_[point.of];
       const Vec3d between = (given - centre) + lattice_->shift(counts + own - lattice_->cell_of(given));
       return dot(between, between) <= distance_squared;
