@@ -7,7 +7,10 @@ namespace bihive {
 namespace {
 
 // Cells that are flatter than this are no cells: the shares of their points would be lost in rounding.
-constexpr double kWorstCondition = 0x1p24;
+constexpr double kWorstCondition = 256;
+
+// Nor are cells that are longer than this: a distance that is short along them may reach over as many images across.
+constexpr double kMostAspect = 0x1p14;
 
 // Beyond this no count is exact.
 constexpr double kMostCells = 0x1p50;
@@ -66,7 +69,9 @@ std::optional<Lattice> Lattice::of(const Cell& cell) {
     const double edge = length(full[k]) / scale;
     lattice.covering_ += 0.5 * edge * (1 + 0x1p-20);
     lattice.longest_ = std::max(lattice.longest_, edge);
+    lattice.shortest_ = lattice.shortest_ == 0 ? edge : std::min(lattice.shortest_, edge);
   }
+  if (!(lattice.longest_ <= kMostAspect * lattice.shortest_)) return std::nullopt;
   return lattice;
 }
 
@@ -83,6 +88,7 @@ Lattice Lattice::times(double factor) const {
   }
   made.covering_ = covering_ * factor;
   made.longest_ = longest_ * factor;
+  made.shortest_ = shortest_ * factor;
   return made;
 }
 

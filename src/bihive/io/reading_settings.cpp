@@ -142,7 +142,8 @@ std::vector<ReadingSetting> make_rows() {
        .report = "wrapping",
        .value = [](const ReadOptions&) { return text_of("wrap"); }},
       {.id = "wrap_molecules",
-       .help = "Files: bring molecules together, and move each into the cell as a whole; also as the value molecules of wrap",
+       .help = "Files: bring molecules together, and move each into the cell as a whole; also as the value molecules "
+               "of wrap",
        .excludes = "wrap",
        .take = [](ReadOptions& o,
                   const std::string&) { return put(Result<Wrapping>(Wrapping::wrap_molecules), o.wrapping); },
