@@ -115,7 +115,8 @@ Lattice::Range Lattice::images_within(double distance, Vec3d from, Vec3d lo, Vec
     if (row_lengths_[k] == 0) continue;
     const auto axis = static_cast<int>(k);
     const double reach = distance * row_lengths_[k];
-    const double pad = 0x1p-46 * condition_ * (1 + reach + 4 * largest * row_lengths_[k]);
+    // Of points so far away that rounding hides their place in a cell, more images would tell no more.
+    const double pad = std::min(0.5, 0x1p-46 * condition_ * (1 + reach + 4 * largest * row_lengths_[k]));
     const auto whole = [](double number) {
       return static_cast<std::int64_t>(std::clamp(number, -kMostCells, kMostCells));
     };
