@@ -19,6 +19,8 @@ TEST(Lattice, NeedsIndependentVectors) {
   EXPECT_FALSE(Lattice::of(cell_of({1, 0, 0}, {2, 0, 0}, {0, 0, 1})));
   EXPECT_FALSE(Lattice::of(cell_of({1, 0, 0}, {2, 0, 0}, {})));
   EXPECT_FALSE(Lattice::of(cell_of({1, 1, 0}, {1, 0, 1}, {0, 1, -1})));
+  EXPECT_FALSE(Lattice::of(cell_of({1e-3, 0, 0}, {0, 1e10, 0}, {0, 0, 1e10})));
+  EXPECT_FALSE(Lattice::of(cell_of({1, 0, 0}, {1, 1e-3, 0}, {0, 0, 1})));
   Cell none = cell_of({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
   EXPECT_TRUE(Lattice::of(none));
   none.periodic = {false, false, false};

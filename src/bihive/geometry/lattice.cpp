@@ -7,7 +7,10 @@ namespace bihive {
 namespace {
 
 // Cells that are flatter than this are no cells: the shares of their points would be lost in rounding.
-constexpr double kWorstCondition = 0x1p24;
+constexpr double kWorstCondition = 256;
+
+// Nor are cells that are longer than this: a distance that is short along them may reach over as many images across.
+constexpr double kMostAspect = 0x1p14;
 
 // Beyond this no count is exact.
 constexpr double kMostCells = 0x1p50;
@@ -66,7 +69,9 @@ std::optional<Lattice> Lattice::of(const Cell& cell) {
     const double edge = length(full[k]) / scale;
     lattice.covering_ += 0.5 * edge * (1 + 0x1p-20);
     lattice.longest_ = std::max(lattice.longest_, edge);
+    lattice.shortest_ = lattice.shortest_ == 0 ? edge : std::min(lattice.shortest_, edge);
   }
+  if (!(lattice.longest_ <= kMostAspect * lattice.shortest_)) return std::nullopt;
   return lattice;
 }
 
@@ -83,6 +88,7 @@ Lattice Lattice::times(double factor) const {
   }
   made.covering_ = covering_ * factor;
   made.longest_ = longest_ * factor;
+  made.shortest_ = shortest_ * factor;
   return made;
 }
 
@@ -109,7 +115,8 @@ Lattice::Range Lattice::images_within(double distance, Vec3d from, Vec3d lo, Vec
     if (row_lengths_[k] == 0) continue;
     const auto axis = static_cast<int>(k);
     const double reach = distance * row_lengths_[k];
-    const double pad = 0x1p-46 * condition_ * (1 + reach + 4 * largest * row_lengths_[k]);
+    // Of points so far away that rounding hides their place in a cell, more images would tell no more.
+    const double pad = std::min(0.5, 0x1p-46 * condition_ * (1 + reach + 4 * largest * row_lengths_[k]));
     const auto whole = [](double number) {
       return static_cast<std::int64_t>(std::clamp(number, -kMostCells, kMostCells));
     };

@@ -24,7 +24,7 @@ inline ImageCounts operator-(const ImageCounts& a, const ImageCounts& b) {
 class Lattice {
  public:
   /// Nothing: the cell is periodic along no vector, or its periodic vectors lie (nearly) in a plane or on a line, as
-  /// those of a placeholder may.
+  /// those of a placeholder may, or one of them is 2^14 times as long as another.
   static std::optional<Lattice> of(const Cell& cell);
   static std::optional<Lattice> of(const std::optional<Cell>& cell);
 
@@ -43,8 +43,9 @@ class Lattice {
   /// Half the sum of the vectors' lengths, a little enlarged: from every point, some image of any other one is at most
   /// this far away along the directions in which the lattice extends.
   double covering() const { return covering_; }
-  /// The greatest length of a vector.
+  /// The greatest and the least length of a vector.
   double longest() const { return longest_; }
+  double shortest() const { return shortest_; }
   /// How many times the rounding of a sum or product may be in a share, and in a shift.
   double condition() const { return condition_; }
 
@@ -65,7 +66,7 @@ class Lattice {
   std::array<Vec3d, 3> vectors_;         // 0: not periodic
   std::array<Vec3d, 3> rows_;            // of the inverse; 0: not periodic
   std::array<double, 3> row_lengths_{};  // 1 / the distance between neighbouring planes of the lattice
-  double covering_ = 0, longest_ = 0, condition_ = 1;
+  double covering_ = 0, longest_ = 0, shortest_ = 0, condition_ = 1;
 };
 
 /// Calls visit(n) for the counts of the range, those near 0 first along each vector, until it returns true. Returns

@@ -77,7 +77,7 @@ double NearestPlace::distance_from(Vec3d from) const {
   if (lattice_) {
     // Its own images are other places.
     search.from = from - lattice_->shift(lattice_->cell_of(from));
-    search.best = lattice_->longest() * lattice_->longest();
+    search.best = lattice_->shortest() * lattice_->shortest();
     search.same_place = kSamePlace * kSamePlace * search.best;
     const double largest = largest_of(search.from) + 2 * lattice_->longest();
     search.pad = 0x1p-48 * lattice_->condition() * largest;
