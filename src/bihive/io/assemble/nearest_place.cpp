@@ -26,6 +26,8 @@ constexpr double kScaleForSmall = 0x1p600;
 // A place on the border of a cell and its image on the other side may differ by the file's last digit.
 constexpr double kSamePlace = 0x1p-20;
 
+constexpr double kMostImages = 4096;
+
 double largest_of(Vec3d p) {
   return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
@@ -84,6 +86,8 @@ double NearestPlace::distance_from(Vec3d from) const {
     visit(0, search);
     const auto range =
         lattice_->images_within(std::sqrt(search.best), search.from, lowest_share_, highest_share_, largest);
+    // Of places so far away that they stay outside the cell, images tell nothing.
+    if (range.count() > kMostImages) return std::sqrt(search.best);
     any_image(range, [&](const ImageCounts& counts) {
       if (counts == ImageCounts{}) return false;
       search.shift = lattice_->shift(counts);
