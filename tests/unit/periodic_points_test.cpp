@@ -10,6 +10,7 @@
 
 #include "bihive/geometry/ray.h"
 #include "bihive/math/rng.h"
+#include "bihive/select/selection.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/trace/points.h"
 #include "bihive/wide/wide_builder.h"
@@ -174,8 +175,16 @@ TEST(PeriodicPoints, HostileQuestionsEnd) {
   EXPECT_FALSE(spheres_within(*set.tree, PointSpan::rows(points, 2), 1e4, options));
   const NearestSpheres far = nearest_spheres(*set.tree, PointSpan::rows(points, 1), 9, 1e30, options).value();
   EXPECT_NE(far.sphere_id[8], kNothing);
+  // A point, or a sphere, whose place in a cell no number tells.
+  const double lost[3] = {1e30, 0.5, 0.5};
+  for (const double within : {kInf, 1e31})
+    EXPECT_NE(nearest_spheres(*set.tree, PointSpan::rows(lost, 1), 1, within, options).value().sphere_id[0], kNothing);
+  EXPECT_TRUE(spheres_within(*set.tree, PointSpan::rows(lost, 1), 3.0, options).value().sphere_id.empty());
   set.spheres.cell() = Cell{};
   EXPECT_FALSE(PeriodicImages::of(set.spheres).value());
+  const PeriodicSet scattered({Vec3d{0.5, 0.5, 0.5}, Vec3d{1e30, 0, 0}}, 0.1, cell);
+  EXPECT_FALSE(PeriodicImages::of(scattered.spheres).value());
+  EXPECT_EQ(select_spheres(scattered.spheres, "within 2 of index 1").value(), (std::vector<std::uint8_t>{0, 1}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -37,6 +38,13 @@ class Lattice {
   }
   /// The vector as multiples of the cell's; 0 along those that are not periodic. Rounded.
   Vec3d shares(Vec3d vector) const { return {dot(vector, rows_[0]), dot(vector, rows_[1]), dot(vector, rows_[2])}; }
+  /// Whether binary64 tells the point's place in a cell well: it is at most 2^40 cells away. Farther points know no
+  /// images.
+  bool holds(Vec3d point) const {
+    constexpr double kMost = 0x1p40;
+    const Vec3d share = shares(point);
+    return std::abs(share.x) <= kMost && std::abs(share.y) <= kMost && std::abs(share.z) <= kMost;
+  }
   /// The counts that bring the cell at the origin to the point.
   ImageCounts cell_of(Vec3d point) const;
 

@@ -298,6 +298,8 @@ class Evaluation {
     const double distance = expression.distance * spheres_.scale();
     std::optional<Lattice> lattice = Lattice::of(spheres_.cell());
     if (lattice) lattice = lattice->times(spheres_.scale());
+    for (std::int64_t id = 0; lattice && id < spheres_.size(); ++id)
+      if (!lattice->holds(spheres_.stored_centre(id))) lattice.reset();
     const NearbyPoints nearby(std::move(points), lattice);
     SphereMask mask(size());
     const std::int64_t tasks = (spheres_.size() + kSpheresPerTask - 1) / kSpheresPerTask;

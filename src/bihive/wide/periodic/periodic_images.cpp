@@ -31,6 +31,7 @@ struct PeriodicImages::Place {
   Vec3d point;     // the question's to the tree, and their shifts, in its units
   double units;
   bool moves_spheres;
+  bool is_far;  // it knows no images
 
   wide::PointQuestion to_tree(const Lattice& lattice, const ImageCounts& counts, double limit) const {
     const Vec3d shift = lattice.shift(moves_spheres ? counts : counts + cell);
@@ -42,6 +43,8 @@ Result<std::optional<PeriodicImages>> PeriodicImages::of(const SphereSet& sphere
   const std::optional<Lattice> lattice = Lattice::of(spheres.cell());
   if (!lattice || spheres.empty()) return std::optional<PeriodicImages>();
   PeriodicImages made(lattice->times(spheres.scale()));
+  for (std::int64_t id = 0; id < spheres.size(); ++id)
+    if (!made.lattice_.holds(spheres.stored_centre(id))) return std::optional<PeriodicImages>();
   const auto take_shares = [&made](const auto& centre_of, std::int64_t count) {
     for (std::int64_t id = 0; id < count; ++id) {
       const Vec3d share = made.lattice_.shares(centre_of(id));
@@ -88,16 +91,17 @@ Result<std::optional<PeriodicImages>> PeriodicImages::of(const SphereSet& sphere
 PeriodicImages::Place PeriodicImages::place_of(const WideTree& tree, const wide::PointQuestion& question) const {
   // In the cell that begins where the spheres do.
   const Vec3d point = question.point;
+  const bool is_far = !lattice_.holds(point);
   const Vec3d share = lattice_.shares(point);
-  ImageCounts cell = lattice_.cell_of(point);
-  for (std::size_t k = 0; k < 3; ++k) {
+  ImageCounts cell = is_far ? ImageCounts{} : lattice_.cell_of(point);
+  for (std::size_t k = 0; k < 3 && !is_far; ++k) {
     const auto axis = static_cast<int>(k);
     cell[k] += static_cast<std::int64_t>(std::floor(share[axis] - double(cell[k]) - lowest_share_[axis]));
   }
   const Vec3d in_cell = point - lattice_.shift(cell);
   const double largest = std::max(largest_of(point), largest_);
-  if (!in_cell_) return {question, tree, cell, in_cell, largest, point, 1, false};
-  return {question, *in_cell_, cell, in_cell, largest, in_cell * in_cell_->scale, in_cell_->scale, true};
+  if (!in_cell_) return {question, tree, cell, in_cell, largest, point, 1, false, is_far};
+  return {question, *in_cell_, cell, in_cell, largest, in_cell * in_cell_->scale, in_cell_->scale, true, is_far};
 }
 
 // Moving into the cell and back rounds coordinates and shifts, each some times; a share of a skewed cell may be
@@ -110,6 +114,7 @@ double PeriodicImages::rounding(const Place& place, double reach) const {
 Lattice::Range PeriodicImages::range_of(const Place& place, double limit) const {
   const double reach = limit + (place.question.to == DistanceTo::surface ? largest_radius_ : 0);
   if (!(reach >= 0)) return {{0, 0, 0}, {-1, 0, 0}};
+  if (place.is_far) return {};
   return lattice_.images_within(reach, place.in_cell, lowest_share_, highest_share_, place.largest);
 }
 
@@ -153,6 +158,7 @@ std::int64_t PeriodicImages::nearest_of(const Place& place, double within, std::
   };
   // The image that is most likely the nearest; then those that may be nearer than what it has.
   look_at({});
+  if (place.is_far) return count;
   if (count == most) {
     const double reach = std::min(limit, in_units(nearest[most - 1].distance));
     any_image(range_of(place, reach + rounding(place, reach)),
