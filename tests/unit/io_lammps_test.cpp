@@ -38,7 +38,7 @@ TEST(LammpsDump, TakesColumnsByName) {
 TEST(LammpsDump, HalvesADiameterAndGuessesARadius) {
   EXPECT_EQ(read_text(frame("diameter x y z", "3 0 0 0\n", 1), "d").spheres.radius(0), 1.5);
   const SphereFile bare = read_text(frame("type x y z", "3 0 0 0\n3 0 0 6\n", 2), "d");
-  EXPECT_EQ(bare.spheres.radius(0), 3);
+  EXPECT_EQ(bare.spheres.radius(0), 1);  // half the way to its own image along x
   ASSERT_EQ(bare.warnings.size(), 1u);
   EXPECT_NE(bare.warnings[0].find("radius sets another"), std::string::npos);
 }
