@@ -203,7 +203,11 @@ TEST(Selection, ASelectionThatFindsNothingSaysWhatThereIs) {
             "no sphere has resid 500 600; there are numbers from 1 to 280");
   EXPECT_EQ(what_there_is(protease(), "chain A and x > 1000"), "") << "no test of values";
   EXPECT_EQ(what_there_is(protease(), "chain A and"), "");
-  EXPECT_EQ(what_there_is(table(), "phase gas"), "no sphere has phase gas; there are solid, liquid, Solid, 10, C5'");
+  const std::string phases = "no sphere has phase gas; there are solid, liquid, Solid, 10, C5'";
+  EXPECT_EQ(what_there_is(table(), "phase gas"), phases);
+  SphereSet frame = table();
+  for (NamedTexts& column : frame.attributes().texts) column.texts.emplace_back("of another frame");
+  EXPECT_EQ(what_there_is(frame, "phase gas"), phases);
 }
 
 TEST(Selection, AndBindsTighterThanOrAndNotTighterThanBoth) {

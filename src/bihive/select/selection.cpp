@@ -37,7 +37,12 @@ std::string alternatives_to(const SphereSet& spheres, const Expression& test) {
     values += (values.empty() ? "" : " ") + (value.quoted ? quote(value.text) : value.text);
   const std::string nothing = "no sphere has " + test.name + " " + values + "; there ";
   if (attribute.texts != nullptr) {
-    const std::vector<std::string>& texts = attribute.texts->texts;
+    // A frame's texts are numbered with those of other frames.
+    std::vector<std::string> texts;
+    std::vector<bool> is_used(attribute.texts->texts.size(), false);
+    for (const std::int32_t text : attribute.texts->text_of_sphere) is_used[static_cast<std::size_t>(text)] = true;
+    for (std::size_t i = 0; i < is_used.size(); ++i)
+      if (is_used[i]) texts.push_back(attribute.texts->texts[i]);
     std::string list;
     for (std::size_t i = 0; i < std::min(texts.size(), kMostTexts); ++i)
       list += (i == 0 ? "" : ", ") + (texts[i].empty() ? quote("") : printable(texts[i]));
