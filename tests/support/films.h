@@ -25,6 +25,7 @@ class Fingerprint {
     const SphereSet& set = file.spheres;
     for (const auto* axis : {&set.x(), &set.y(), &set.z(), &set.r()}) add(*axis);
     add(set.scale_exponent());
+    add(set.origin());
     add(set.vanishing_radii());
     add(set.cell());
     add(set.images().counts);
@@ -59,6 +60,12 @@ class Fingerprint {
   void add(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  // It has bytes between its members, which mean nothing.
+  void add(const Cell& cell) {
+    add(cell.origin);
+    add(cell.vectors);
+    add(cell.periodic);
   }
   template <class T>
   void add(const std::optional<T>& value) {
