@@ -62,7 +62,7 @@ struct Facts {
   Range radius{"radius"};
   std::int64_t zero_radii = 0;
   std::vector<Range> attributes;
-  Content content;
+  InfoContent content;
   std::optional<std::pair<double, double>> time_span_ps;  // of the first and the last frame
   BuildParameters parameters;
   MemoryPrediction memory;
@@ -172,7 +172,7 @@ void print_text(const Facts& facts, bool with_trees) {
   if (facts.time_span_ps)
     row("time span", fmt::format("{:.9g} to {:.9g} ps in {} frames", facts.time_span_ps->first,
                                  facts.time_span_ps->second, grouped(facts.input.frames)));
-  const Content& content = facts.content;
+  const InfoContent& content = facts.content;
   if (!content.chains.empty()) row("chains", text_of(content.chains, " residues"));
   if (!content.kinds.empty()) row("residues", text_of(content.kinds));
   if (!content.ligands.empty()) row("ligands and ions", text_of(content.ligands));

@@ -39,7 +39,7 @@ class ResidueBegins {
   std::vector<const NamedTexts*> texts_;
 };
 
-void count_residues(const SphereSet& spheres, Content& content) {
+void count_residues(const SphereSet& spheres, InfoContent& content) {
   const NamedTexts* const names = spheres.attributes().find_texts("resname");
   if (names == nullptr) return;
   const ResidueBegins begins(spheres.attributes());
@@ -56,8 +56,8 @@ void count_residues(const SphereSet& spheres, Content& content) {
 
 }  // namespace
 
-Content content_of(const SphereSet& spheres) {
-  Content content;
+InfoContent content_of(const SphereSet& spheres) {
+  InfoContent content;
   const SphereAttributes& attributes = spheres.attributes();
   const ResidueBegins begins(attributes);
   if (const NamedTexts* const chain = attributes.find_texts("chain")) {

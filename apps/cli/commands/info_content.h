@@ -16,12 +16,12 @@ struct CountedName {
 };
 
 /// Residues are runs of spheres that agree in chain, number, insertion code and name.
-struct Content {
+struct InfoContent {
   std::vector<CountedName> chains;        ///< in order of appearance
   std::vector<CountedName> kinds;         ///< "protein", "nucleic", "water", "ion", "ligand": those that there are
   std::vector<CountedName> ligands;       ///< by name of the residue, in order of appearance; ions too
   std::optional<std::int64_t> molecules;  ///< distinct numbers of a column mol
 };
-Content content_of(const SphereSet& spheres);
+InfoContent content_of(const SphereSet& spheres);
 
 }  // namespace bihive::cli
