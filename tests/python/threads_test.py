@@ -82,7 +82,7 @@ class Threads(ProgramTest):
 
     def test_spheres(self):
         s = spheres()
-        arguments = {"__getitem__": ("charge",), "core.select": ("element C and charge > 0", "select"), "core.written": ("csv",),
+        arguments = {"__getitem__": ("charge",), "core.select": ("element C and charge > 0", "select", True), "core.written": ("csv",),
                      "core.statistics": ([],)}
         calls = calls_of(s, self.folder, arguments, left_out={"save", "core.statistics"})
         calls["save"] = lambda: s.save(self.path_of_thread("csv"))

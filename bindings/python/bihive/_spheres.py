@@ -107,7 +107,7 @@ def _cell(value: Any) -> Array:
 
 def _periodic(value: Any) -> tuple[bool, bool, bool]:
     """For each vector of the cell."""
-    flags = np.asarray(value)
+    flags = as_array("periodic", value)
     if flags.dtype.kind not in "bui" or flags.shape not in ((), (3,)) or not bool(np.isin(flags, (0, 1)).all()):
         raise bad_argument("periodic", f"expected True, False or three of them, found {found(value)}")
     a, b, c = np.broadcast_to(flags, 3)

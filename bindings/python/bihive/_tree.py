@@ -215,7 +215,15 @@ class Tree:
         most = one_each("limits", limits, where.shape[0]).astype(np.float64)
         if np.isnan(most).any():
             raise bad_argument("limits", "expected numbers, found NaN")
-        begin, ids, distance = self._core.within(where, np.ascontiguousarray(most), _to_centre(to))
+        return self._within("limits", where, most, to)
+
+    def _within(self, name: str, where: Array, most: Array, to: str) -> Near:
+        try:
+            begin, ids, distance = self._core.within(where, np.ascontiguousarray(most), _to_centre(to))
+        except InputError as error:  # each image of a sphere is found, and there may be too many
+            if self.periodic and "images" in str(error):
+                raise bad_argument(name, str(error)) from None
+            raise
         return Near(begin, self._positions(ids), distance)
 
     def contains(self, points: Any) -> Near:
@@ -233,7 +241,7 @@ class Tree:
         sizes = one_each("radii", radii, where.shape[0])
         if sizes.size > 0 and not (np.isfinite(sizes).all() and (sizes >= 0).all()):
             raise bad_argument("radii", "expected finite numbers of at least 0")
-        return self.within(where, sizes)
+        return self._within("radii", where, sizes.astype(np.float64), "surface")
 
     def _positions(self, ids: Array) -> Array:
         """Positions among all spheres, of positions in the subset."""
