@@ -1,34 +1,17 @@
 #include "bihive/geometry/rounding_loss.h"
 
-#include <cstring>
-
 #include "bihive/base/readable.h"
 
 namespace bihive {
-namespace {
-
-double number_at(const NumbersView& view, std::size_t i) {
-  const char* const at = static_cast<const char*>(view.first) + static_cast<std::ptrdiff_t>(i) * view.step_bytes;
-  if (view.precision == NumbersView::Precision::binary32) {
-    float value;
-    std::memcpy(&value, at, sizeof value);
-    return double(value);
-  }
-  double value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
-
-}  // namespace
 
 RoundingLoss rounding_loss(const SphereSet& set, const NumbersView& x, const NumbersView& y, const NumbersView& z,
                            const NumbersView& r, std::int64_t first_id) {
   RoundingLoss loss;
   for (std::int64_t id = 0; id < set.size(); ++id) {
     const auto i = static_cast<std::size_t>(id);
-    const double radius = number_at(r, i);
+    const double radius = r.at(i);
     if (!(radius > 0)) continue;
-    const Vec3d exact{number_at(x, i), number_at(y, i), number_at(z, i)};
+    const Vec3d exact{x.at(i), y.at(i), z.at(i)};
     const double share = length(set.local_centre(id) - set.to_local(exact)) / radius;
     if (!(share > SphereSet::kHarmlessShift)) continue;
     ++loss.moved;

@@ -1,4 +1,4 @@
-// What rounding to binary32 does to the spheres of a set.
+// How far rounding to binary32 moves the centres of a set, and which radii it loses.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace bihive {
 
-/// The centres that rounding moves by more than SphereSet::kHarmlessShift of their radius, and the radii that it makes
-/// to points.
+/// Counts of the centres that rounding moves by more than SphereSet::kHarmlessShift of their radius, and of the radii
+/// so small that the spheres become points.
 struct RoundingLoss {
   std::int64_t moved = 0;
   double worst_share = SphereSet::kHarmlessShift;  ///< of the radius
@@ -17,7 +17,8 @@ struct RoundingLoss {
   std::int64_t vanishing = 0;
 };
 
-/// `set` was made from these numbers, without images. `first_id`: of its first sphere in the whole set.
+/// Of a set that was made from these numbers and has no images. `first_id` is the id of its first sphere in the whole
+/// set.
 RoundingLoss rounding_loss(const SphereSet& set, const NumbersView& x, const NumbersView& y, const NumbersView& z,
                            const NumbersView& r, std::int64_t first_id = 0);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -37,20 +36,13 @@ Error bad_sphere(std::size_t i, const std::string& what, double value) {
 template <class T>
 class TypedView {
  public:
-  explicit TypedView(const NumbersView& view)
-      : first_(static_cast<const char*>(view.first)), step_(view.step_bytes), size_(view.count) {}
+  explicit TypedView(const NumbersView& view) : view_(view) {}
 
-  std::size_t size() const { return size_; }
-  T operator[](std::size_t i) const {
-    T value;
-    std::memcpy(&value, first_ + static_cast<std::ptrdiff_t>(i) * step_, sizeof(T));
-    return value;
-  }
+  std::size_t size() const { return view_.count; }
+  T operator[](std::size_t i) const { return view_.get<T>(i); }
 
  private:
-  const char* first_;
-  std::ptrdiff_t step_;
-  std::size_t size_;
+  NumbersView view_;
 };
 
 }  // namespace
@@ -82,6 +74,9 @@ Vec3d WorldEnds::origin() const {
 template <class Coordinates, class Radii>
 Result<WorldEnds> SphereSet::ends_of(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
                                      std::int64_t first_id) {
+  BIHIVE_CHECK_EQ(x.size(), y.size());
+  BIHIVE_CHECK_EQ(x.size(), z.size());
+  BIHIVE_CHECK_EQ(x.size(), r.size());
   const auto first = static_cast<std::size_t>(first_id);
   constexpr double kLargest = std::numeric_limits<float>::max();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -137,10 +132,6 @@ bool SphereSet::is_coarse(const Coordinates& x, const Coordinates& y, const Coor
 template <class Coordinates, class Radii>
 Result<SphereSet> SphereSet::make_about(const Coordinates& x, const Coordinates& y, const Coordinates& z,
                                         const Radii& r, const WorldEnds& ends, Vec3d origin) {
-  BIHIVE_CHECK_EQ(x.size(), y.size());
-  BIHIVE_CHECK_EQ(x.size(), z.size());
-  BIHIVE_CHECK_EQ(x.size(), r.size());
-
   // The tree of a small set decides whether it fits.
   constexpr std::size_t kSmallSet = 1 << 16;
   if (x.size() > kSmallSet)
@@ -199,8 +190,7 @@ Result<SphereSet> SphereSet::from_local(const std::vector<double>& x, const std:
 
 Result<SphereSet> SphereSet::chunk_from_world(const std::vector<double>& x, const std::vector<double>& y,
                                               const std::vector<double>& z, const std::vector<double>& r,
-                                              std::int64_t first_id, const WorldEnds& ends, Vec3d origin) {
-  if (const Result<WorldEnds> own = ends_of(x, y, z, r, first_id); !own) return own.error();
+                                              const WorldEnds& ends, Vec3d origin) {
   return make_about(x, y, z, r, ends, origin);
 }
 

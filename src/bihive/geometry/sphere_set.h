@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -42,6 +43,15 @@ struct NumbersView {
   static NumbersView of(const std::vector<double>& numbers) {
     return {numbers.data(), static_cast<std::ptrdiff_t>(sizeof(double)), numbers.size(), Precision::binary64};
   }
+
+  /// Number i, which must be of this type.
+  template <class T>
+  T get(std::size_t i) const {
+    T number;
+    std::memcpy(&number, static_cast<const char*>(first) + static_cast<std::ptrdiff_t>(i) * step_bytes, sizeof number);
+    return number;
+  }
+  double at(std::size_t i) const { return precision == Precision::binary32 ? double(get<float>(i)) : get<double>(i); }
 };
 
 /// Spheres as a set stores them: binary32, world units times 2^scale_exponent.
@@ -91,12 +101,12 @@ class SphereSet {
   /// The same from local numbers.
   static Result<SphereSet> from_local(const std::vector<double>& x, const std::vector<double>& y,
                                       const std::vector<double>& z, const std::vector<double>& r, Vec3d origin);
-  /// A chunk of a larger set, in the units of the whole set and relative to its origin. `first_id`: of the chunk's
-  /// first sphere in the whole set, for messages. `ends`: those of all chunks.
+  /// A chunk of a larger set, in the units of the whole set and relative to its origin. `ends` must hold those of every
+  /// chunk, so ends_of_world() has checked the numbers.
   static Result<SphereSet> chunk_from_world(const std::vector<double>& x, const std::vector<double>& y,
                                             const std::vector<double>& z, const std::vector<double>& r,
-                                            std::int64_t first_id, const WorldEnds& ends, Vec3d origin);
-  /// Errors as from_world(). Without spheres all ends are -inf.
+                                            const WorldEnds& ends, Vec3d origin);
+  /// Errors as from_world(), whose messages count the spheres from `first_id`. Without spheres all ends are -inf.
   static Result<WorldEnds> ends_of_world(const std::vector<double>& x, const std::vector<double>& y,
                                          const std::vector<double>& z, const std::vector<double>& r,
                                          std::int64_t first_id);

@@ -55,7 +55,7 @@ class StoredClip {
  public:
   StoredClip(const Clip& clip, const SphereSet& spheres)
       : StoredClip(spheres.has_origin() ? moved(clip, -spheres.origin()) : clip, spheres.scale()) {}
-  /// A local clip. `scale`: of the sphere set, a power of two.
+  /// From a clip in local coordinates. `scale` is the scale of the sphere set, a power of two.
   StoredClip(const Clip& clip, double scale);
 
   bool is_round() const { return kind_ == Kind::sphere; }

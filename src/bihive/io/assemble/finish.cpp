@@ -147,7 +147,7 @@ bool SphereFinisher::is_coarse_about_zero(double extent_of_whole) const {
 }
 
 Result<RoundingLoss> SphereFinisher::round(const WorldEnds& ends_of_whole, Vec3d origin) {
-  Result<SphereSet> set = SphereSet::chunk_from_world(raw_.x, raw_.y, raw_.z, raw_.r, first_, ends_of_whole, origin);
+  Result<SphereSet> set = SphereSet::chunk_from_world(raw_.x, raw_.y, raw_.z, raw_.r, ends_of_whole, origin);
   if (!set) return named(set.error());
   set_ = std::move(*set);
   const RoundingLoss loss = rounding_loss(set_, NumbersView::of(raw_.x), NumbersView::of(raw_.y),
