@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <iterator>
 #include <new>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -72,60 +71,38 @@ void check_room(double values) {
     throw Fault{status.error().message};
 }
 
-template <class T>
-T little_endian(const char* bytes) {
-  const std::uint64_t bits = bits_at(bytes, sizeof(T), false);
-  if constexpr (std::is_same_v<T, float>)
-    return same_bits<float>(static_cast<std::uint32_t>(bits));
-  else if constexpr (std::is_same_v<T, double>)
-    return same_bits<double>(bits);
-  else
-    return static_cast<T>(bits);
-}
-
-template <class T, class To>
-std::vector<To> numbers_in(std::string_view bytes) {
-  if (bytes.size() % sizeof(T) != 0) throw Fault{"a column has half a number"};
-  check_room(static_cast<double>(bytes.size() / sizeof(T)));
-  std::vector<To> numbers(bytes.size() / sizeof(T));
+// Integers of up to 32 bits are exact in the binary64 that number_at() returns.
+template <class To>
+std::vector<To> numbers_in(std::string_view bytes, const NumberType& type) {
+  if (bytes.size() % type.size != 0) throw Fault{"a column has half a number"};
+  check_room(static_cast<double>(bytes.size() / type.size));
+  std::vector<To> numbers(bytes.size() / type.size);
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    numbers[i] = static_cast<To>(little_endian<T>(bytes.data() + i * sizeof(T)));
+    numbers[i] = static_cast<To>(number_at(bytes.data() + i * type.size, type));
   return numbers;
 }
 
+// The types of ByteArray, by their codes.
+constexpr struct {
+  std::int64_t code;
+  NumberType type;
+} kByteArrayTypes[] = {{1, {'i', 1}}, {2, {'i', 2}}, {3, {'i', 4}},  {4, {'u', 1}},
+                       {5, {'u', 2}}, {6, {'u', 4}}, {32, {'f', 4}}, {33, {'f', 8}}};
+
 void undo_byte_array(const Value& how, Data& data) {
   if (data.form != Data::Form::bytes) throw Fault{"'ByteArray' is not the last step"};
-  data.form = Data::Form::integers;
-  switch (member(how, "type", Kind::integer).integer) {
-    case 1:
-      data.integers = numbers_in<std::int8_t, std::int64_t>(data.bytes);
-      return;
-    case 2:
-      data.integers = numbers_in<std::int16_t, std::int64_t>(data.bytes);
-      return;
-    case 3:
-      data.integers = numbers_in<std::int32_t, std::int64_t>(data.bytes);
-      return;
-    case 4:
-      data.integers = numbers_in<std::uint8_t, std::int64_t>(data.bytes);
-      return;
-    case 5:
-      data.integers = numbers_in<std::uint16_t, std::int64_t>(data.bytes);
-      return;
-    case 6:
-      data.integers = numbers_in<std::uint32_t, std::int64_t>(data.bytes);
-      return;
-    case 32:
-      data.single = true;
-      data.numbers = numbers_in<float, double>(data.bytes);
-      break;
-    case 33:
-      data.numbers = numbers_in<double, double>(data.bytes);
-      break;
-    default:
-      throw Fault{"'ByteArray' has an unknown type"};
+  const std::int64_t code = member(how, "type", Kind::integer).integer;
+  const auto* const row = std::find_if(std::begin(kByteArrayTypes), std::end(kByteArrayTypes),
+                                       [code](const auto& one) { return one.code == code; });
+  if (row == std::end(kByteArrayTypes)) throw Fault{"'ByteArray' has an unknown type"};
+  if (row->type.kind == 'f') {
+    data.form = Data::Form::numbers;
+    data.single = row->type.size == sizeof(float);
+    data.numbers = numbers_in<double>(data.bytes, row->type);
+  } else {
+    data.form = Data::Form::integers;
+    data.integers = numbers_in<std::int64_t>(data.bytes, row->type);
   }
-  data.form = Data::Form::numbers;
 }
 
 // Integers become numbers.
