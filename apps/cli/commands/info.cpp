@@ -63,7 +63,7 @@ struct Facts {
   std::int64_t zero_radii = 0;
   std::vector<Range> attributes;
   InfoContent content;
-  std::optional<std::pair<double, double>> time_span_ps;  // of the first and the last frame
+  std::optional<std::pair<double, double>> time_span_ps;  // times of the first and last frames
   BuildParameters parameters;
   MemoryPrediction memory;
   WideMemoryPrediction wide_memory;

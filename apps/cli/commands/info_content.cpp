@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "bihive/io/residue_runs.h"
 #include "bihive/select/selection.h"
 
 namespace bihive::cli {
@@ -22,27 +23,20 @@ void count(std::vector<CountedName>& names, const std::string& name, bool begins
 // Whether a sphere is of another residue than the one before it.
 class ResidueBegins {
  public:
-  explicit ResidueBegins(const SphereAttributes& attributes) : number_(attributes.find_numbers("resid")) {
-    for (const char* const name : {"chain", "entity", "insertion", "resname"})
-      if (const NamedTexts* const column = attributes.find_texts(name)) texts_.push_back(column);
+  explicit ResidueBegins(const SphereSet& spheres) {
+    const NamedNumbers* const number = spheres.attributes().find_numbers("resid");
+    residues_ = residue_runs(spheres.attributes(), static_cast<std::size_t>(spheres.size()),
+                             [number](std::size_t i) { return number == nullptr ? 0 : number->values[i]; });
   }
-  bool operator()(std::size_t i) const {
-    if (i == 0) return true;
-    if (number_ != nullptr && number_->values[i] != number_->values[i - 1]) return true;
-    return std::any_of(texts_.begin(), texts_.end(), [i](const NamedTexts* column) {
-      return column->text_of_sphere[i] != column->text_of_sphere[i - 1];
-    });
-  }
+  bool operator()(std::size_t i) const { return i == 0 || residues_[i] != residues_[i - 1]; }
 
  private:
-  const NamedNumbers* number_;
-  std::vector<const NamedTexts*> texts_;
+  std::vector<std::int32_t> residues_;
 };
 
-void count_residues(const SphereSet& spheres, InfoContent& content) {
+void count_residues(const SphereSet& spheres, const ResidueBegins& begins, InfoContent& content) {
   const NamedTexts* const names = spheres.attributes().find_texts("resname");
   if (names == nullptr) return;
-  const ResidueBegins begins(spheres.attributes());
   for (const std::string kind : kKinds) {
     const Result<std::vector<std::uint8_t>> mask = select_spheres(spheres, kind);
     if (!mask) continue;
@@ -59,7 +53,7 @@ void count_residues(const SphereSet& spheres, InfoContent& content) {
 InfoContent content_of(const SphereSet& spheres) {
   InfoContent content;
   const SphereAttributes& attributes = spheres.attributes();
-  const ResidueBegins begins(attributes);
+  const ResidueBegins begins(spheres);
   if (const NamedTexts* const chain = attributes.find_texts("chain")) {
     std::vector<CountedName> of_text;
     for (const std::string& name : chain->texts) of_text.push_back({name});
@@ -71,7 +65,7 @@ InfoContent content_of(const SphereSet& spheres) {
     for (const CountedName& one : of_text)
       if (one.spheres > 0) content.chains.push_back(one);
   }
-  count_residues(spheres, content);
+  count_residues(spheres, begins, content);
   for (const char* const name : {"mol", "molecule", "mol_id", "molecule_id"})
     if (const NamedNumbers* const column = attributes.find_numbers(name); column != nullptr && !content.molecules) {
       std::vector<double> numbers = column->values;
