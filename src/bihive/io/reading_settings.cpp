@@ -47,14 +47,8 @@ Result<std::int64_t> frame_from_text(const std::string& text) {
   return *frame;
 }
 
-// Whether the id is one of those in the list, which blanks separate.
-bool is_among(std::string_view list, std::string_view id) {
-  for (std::size_t begin = 0; begin < list.size();) {
-    const std::size_t end = std::min(list.find(' ', begin), list.size());
-    if (list.substr(begin, end - begin) == id) return true;
-    begin = end + 1;
-  }
-  return false;
+bool excludes(const ReadingSetting& one, const ReadingSetting& other) {
+  return std::find(one.excludes.begin(), one.excludes.end(), other.id) != one.excludes.end();
 }
 
 Status take_assembly(ReadOptions& options, const std::string& text) {
@@ -132,7 +126,7 @@ std::vector<ReadingSetting> make_rows() {
       {.id = "no_periodic",
        .help = "Files: distances see the spheres alone, without images",
        .with_chunks = true,
-       .excludes = "periodic",
+       .excludes = {"periodic"},
        .take = [](ReadOptions& o, const std::string&) { return put(Result<bool>(false), o.periodic); },
        .report = "periodic",
        .value = [](const ReadOptions& o) { return text_of(o.periodic); }},
@@ -144,14 +138,14 @@ std::vector<ReadingSetting> make_rows() {
       {.id = "wrap_molecules",
        .help = "Files: bring molecules together, and move each into the cell as a whole; also as the value molecules "
                "of wrap",
-       .excludes = "wrap",
+       .excludes = {"wrap"},
        .take = [](ReadOptions& o,
                   const std::string&) { return put(Result<Wrapping>(Wrapping::wrap_molecules), o.wrapping); },
        .report = "wrapping",
        .value = [](const ReadOptions&) { return text_of("wrap_molecules"); }},
       {.id = "unwrap",
        .help = "Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues",
-       .excludes = "wrap wrap_molecules",
+       .excludes = {"wrap", "wrap_molecules"},
        .take = [](ReadOptions& o, const std::string&) { return put(Result<Wrapping>(Wrapping::unwrap), o.wrapping); },
        .report = "wrapping",
        .value = [](const ReadOptions&) { return text_of("unwrap"); }},
@@ -191,7 +185,7 @@ Status GivenReading::take(std::string_view id, const std::string& text) {
     return Error{"expected no value, or true, found \"" + text + "\"", "", 0, 0, "leave it out to switch it off"};
   if (has(id)) return Error{"is given more than once", "", 0, 0, ""};
   for (const auto& [other, value] : given_)
-    if (is_among(other->excludes, id) || is_among(row->excludes, other->id))
+    if (excludes(*other, *row) || excludes(*row, *other))
       return Error{"excludes " + setting_name(other->id), "", 0, 0, "leave one of them out"};
   if (Status status = row->take(options_, text); !status) return status;
   const auto after = [](const auto& one, const ReadingSetting* other) { return one.first < other; };

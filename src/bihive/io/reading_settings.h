@@ -23,7 +23,7 @@ struct ReadingSetting {
   std::string_view inputs = "files";  ///< which have it, for messages
   /// Works where ranks read chunks of a file each; if not, one rank reads all of it.
   bool with_chunks = false;
-  std::string_view excludes = "";  ///< ids of other settings, with blanks between
+  std::vector<std::string_view> excludes = {};  ///< ids of other settings
   /// From the text of a command line; that of a flag is empty or "true". Error: the expected and the found text.
   Status (*take)(ReadOptions& options, const std::string& text) = nullptr;
   /// For reports: a key, and the value that `options` have, as JSON.

@@ -440,12 +440,8 @@ const std::vector<RequestOption<InputOptions>>& input_options() {
                                       .value_name = std::string(setting.value_name),
                                       .help = setting.help,
                                       .theme = OptionTheme::reading,
-                                      .ranks = setting.with_chunks ? kChunks : kWhole};
-      for (std::size_t begin = 0; begin < setting.excludes.size();) {
-        const std::size_t end = std::min(setting.excludes.find(' ', begin), setting.excludes.size());
-        row.excludes.emplace_back(setting.excludes.substr(begin, end - begin));
-        begin = end + 1;
-      }
+                                      .ranks = setting.with_chunks ? kChunks : kWhole,
+                                      .excludes = {setting.excludes.begin(), setting.excludes.end()}};
       row.take = [&setting](InputOptions& input, const std::string& text) {
         return input.reading.take(setting.id, text);
       };
