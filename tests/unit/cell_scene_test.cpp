@@ -36,6 +36,18 @@ TEST(CellOfScene, ComesBackFromTheWrittenFile) {
   EXPECT_EQ(scene_to_json(again), written);
 }
 
+TEST(CellOfScene, KeepsAlongWhichVectorsDistancesSeeImages) {
+  const std::string slab = R"({"bihive_scene": 2, "spheres": [[0, 0, 0, 1]],
+    "cell": {"vectors": [[4, 0, 0], [0, 4, 0], [0, 0, 5]], "periodic": [true, true, false]}})";
+  const Scene scene = parse_scene(slab, "a.json", {}).value().scene;
+  EXPECT_EQ(scene.spheres.cell()->periodic, (std::array<bool, 3>{true, true, false}));
+  EXPECT_EQ(parse_scene(scene_to_json(scene), "a.json", {}).value().scene.spheres.cell(), scene.spheres.cell());
+
+  ReadOptions options;
+  options.periodic = false;
+  EXPECT_EQ(parse_scene(slab, "a.json", options).value().scene.spheres.cell()->periodic, (std::array<bool, 3>{}));
+}
+
 TEST(CellOfScene, FaultsNameTheirPlace) {
   const auto error = [](const std::string& members) {
     return parse_scene(R"({"bihive_scene": 2, "spheres": [[0, 0, 0, 1]], )" + members + "}", "a.json", {})
@@ -44,6 +56,9 @@ TEST(CellOfScene, FaultsNameTheirPlace) {
   };
   EXPECT_NE(error(R"("cell": {"vectors": [[1, 0, 0], [0, 1, 0]]})").find("/cell/vectors"), std::string::npos);
   EXPECT_NE(error(R"("replicate": [1, 2, 0])").find("/replicate/2"), std::string::npos);
+  EXPECT_NE(error(R"("cell": {"vectors": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "periodic": [true, true]})")
+                .find("/cell/periodic"),
+            std::string::npos);
   EXPECT_NE(error(R"("replicate": [1, 2, 2])").find("no periodic cell to replicate by"), std::string::npos);
   EXPECT_NE(error(R"("wrapping": "yes")").find("/wrapping"), std::string::npos);
   EXPECT_NE(error(R"("picture": {"cell_lines": {"width_px": 17}})").find("/picture/cell_lines/width_px"),

@@ -109,6 +109,18 @@ test('each frame is the program’s, by buttons, keys and the time line', async 
   await context.close();
 });
 
+test('a frame in the address is where the player begins', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, `${kit.server.url}?frame=3`, small);
+  await and_settle(page, () => pick(page, run));
+  await settled_at(page, 3);
+  const native = native_picture(on_disk(run), 'begin', ...size, '--frame', '3');
+  assert_same_picture(await saved_picture(page, width, height), native, 'frame 3');
+  await page.click('#player_on');
+  await settled_at(page, 4);
+  no_complaints(complaints);
+  await context.close();
+});
+
 test('a trajectory in a file of its own, at once with its spheres or behind them', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
   const spheres = { name: 'three.xyz', bytes: Buffer.from(xyz(1)) }, moves = { name: 'run.dcd', bytes: dcd() };

@@ -35,9 +35,10 @@ struct ReadOptions {
   /// The vectors of the cell and its corner, in place of the file's. A corner that neither states is 0.
   std::optional<std::array<Vec3d, 3>> cell_vectors;
   std::optional<Vec3d> cell_origin;
-  bool periodic = true;                            ///< distances know the cell's images; false: Cell::periodic is not
-  Wrapping wrapping = Wrapping::none;              ///< needs a cell
-  std::array<std::int32_t, 3> replicate{1, 1, 1};  ///< copies along the cell's vectors (SphereSet::replicate)
+  std::optional<std::array<bool, 3>> cell_periodic;  ///< Cell::periodic, in place of the file's
+  bool periodic = true;                              ///< distances know the cell's images; false: Cell::periodic is not
+  Wrapping wrapping = Wrapping::none;                ///< needs a cell
+  std::array<std::int32_t, 3> replicate{1, 1, 1};    ///< copies along the cell's vectors (SphereSet::replicate)
 };
 
 struct SphereFile {

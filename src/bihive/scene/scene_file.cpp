@@ -263,6 +263,7 @@ class Extraction {
       if (!options.cell_vectors)
         options.cell_vectors = {vector(vectors.at(0)), vector(vectors.at(1)), vector(vectors.at(2))};
       if (!options.cell_origin && cell.contains("origin")) options.cell_origin = vector(cell.at("origin"));
+      if (cell.contains("periodic")) options.cell_periodic = cell.at("periodic").get<std::array<bool, 3>>();
     }
     if (document_.contains("replicate") && options.replicate == ReadOptions().replicate)
       options.replicate = document_.at("replicate").get<std::array<std::int32_t, 3>>();

@@ -137,9 +137,13 @@ std::string lens_members(const Camera& camera) {
 // The cell and the copies, with their line ends.
 std::string cell_members(const SphereSet& spheres) {
   std::string members;
-  if (const std::optional<Cell>& cell = spheres.cell())
-    members += fmt::format("  \"cell\": {{\"vectors\": [{}, {}, {}], \"origin\": {}}},\n", vector(cell->vectors[0]),
+  if (const std::optional<Cell>& cell = spheres.cell()) {
+    members += fmt::format("  \"cell\": {{\"vectors\": [{}, {}, {}], \"origin\": {}", vector(cell->vectors[0]),
                            vector(cell->vectors[1]), vector(cell->vectors[2]), vector(cell->origin));
+    const auto& [a, b, c] = cell->periodic;
+    if (!(a && b && c)) members += fmt::format(", \"periodic\": [{}, {}, {}]", a, b, c);
+    members += "},\n";
+  }
   const auto& [a, b, c] = spheres.images().counts;
   if (spheres.has_images()) members += fmt::format("  \"replicate\": [{}, {}, {}],\n", a, b, c);
   return members;

@@ -36,9 +36,11 @@ std::string unreadable_cell(std::int64_t frame) {
 
 std::optional<Cell> cell_by_options(const std::optional<Cell>& of_file, const ReadOptions& options) {
   std::optional<Cell> cell = of_file;
-  if (options.cell_vectors) cell = Cell{of_file ? of_file->origin : Vec3d{}, *options.cell_vectors};
+  if (options.cell_vectors && !cell) cell.emplace();
   if (!cell) return cell;
+  if (options.cell_vectors) cell->vectors = *options.cell_vectors;
   if (options.cell_origin) cell->origin = *options.cell_origin;
+  if (options.cell_periodic) cell->periodic = *options.cell_periodic;
   if (!options.periodic) cell->periodic = {false, false, false};
   return cell;
 }
