@@ -14,6 +14,7 @@
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/trace/points.h"
 #include "bihive/wide/wide_builder.h"
+#include "support/periodic_cells.h"
 
 namespace bihive {
 namespace {
@@ -48,49 +49,29 @@ struct PeriodicSet {
 // All images of all spheres, moved by -reach to reach along each periodic vector, within a distance: world units.
 std::vector<wide::NearSphere> all_within(const PeriodicSet& set, Vec3d point, double limit, DistanceTo to, int reach) {
   const SphereSet& spheres = set.spheres;
-  std::array<Vec3d, 3> vectors = spheres.cell()->vectors;
-  std::array<int, 3> most{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    most[k] = spheres.cell()->periodic[k] && vectors[k] != Vec3d{} ? reach : 0;
-    vectors[k] = vectors[k] * spheres.scale();
-  }
   std::vector<wide::NearSphere> found;
   for (std::int64_t id = 0; id < spheres.size(); ++id)
-    for (int i = -most[0]; i <= most[0]; ++i)
-      for (int j = -most[1]; j <= most[1]; ++j)
-        for (int k = -most[2]; k <= most[2]; ++k) {
-          const Vec3d shift = double(i) * vectors[0] + double(j) * vectors[1] + double(k) * vectors[2];
-          const double distance =
-              image_distance(point * spheres.scale(), spheres.stored_centre(id), shift, spheres.stored_radius(id), to);
-          if (distance <= limit * spheres.scale()) found.push_back({distance * spheres.inverse_scale(), id});
-        }
+    test::for_each_shift(spheres, reach, [&](Vec3d shift) {
+      const double distance =
+          image_distance(point * spheres.scale(), spheres.stored_centre(id), shift, spheres.stored_radius(id), to);
+      if (distance <= limit * spheres.scale()) found.push_back({distance * spheres.inverse_scale(), id});
+    });
   return found;
 }
 
 TEST(PeriodicPoints, AgreeWithAllImages) {
-  Cell slab{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}};
-  slab.periodic[2] = false;
-  const std::vector<Cell> cells{{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}},
-                                {{}, {Vec3d{4, 0, 0}, Vec3d{1.9, 3, 0}, Vec3d{-1.5, 1.2, 5}}},
-                                {{}, {Vec3d{-2, 1, 0.5}, Vec3d{1.9, 3, 0}, Vec3d{0.25, 1.2, -2}}},
-                                {{}, {Vec3d{4, 0, 0}, Vec3d{}, Vec3d{1, 0, 3}}},
-                                {{}, {Vec3d{}, Vec3d{0, 2, 0.5}, Vec3d{}}},
-                                slab};
   SplitMix64 random(11);
-  const auto in_cell = [&](const Cell& cell) {
-    return random.next_double() * cell.vectors[0] + random.next_double() * cell.vectors[1] +
-           random.next_double() * cell.vectors[2];
-  };
-  for (const Cell& cell : cells)
+  for (const Cell& cell : test::periodic_cells())
     for (const bool is_scattered : {false, true}) {
       std::vector<Vec3d> centres, points;
       for (int i = 0; i < 12; ++i) {
-        centres.push_back(in_cell(cell));
+        centres.push_back(test::point_in(cell, random));
         if (is_scattered && i % 3 == 0)
           centres.back() = centres.back() + double(random.next_below(4)) * cell.vectors[0] - 2.0 * cell.vectors[1];
       }
       centres.push_back(centres[4]);
-      for (int i = 0; i < 8; ++i) points.push_back(in_cell(cell) + (i % 2 == 0 ? 1.0 : -2.0) * cell.vectors[1]);
+      for (int i = 0; i < 8; ++i)
+        points.push_back(test::point_in(cell, random) + (i % 2 == 0 ? 1.0 : -2.0) * cell.vectors[1]);
       points.push_back(centres[0]);
       const PeriodicSet set(centres, 0.1, cell);
       ASSERT_TRUE(set.images);

@@ -7,6 +7,7 @@
 
 #include "bihive/io/bundled.h"
 #include "bihive/math/rng.h"
+#include "support/periodic_cells.h"
 #include "support/read_text.h"
 
 namespace bihive {
@@ -264,38 +265,24 @@ TEST(Selection, WithinIncludesItsLimitAndItsOwnSpheres) {
 
 // Whether an image of `b`, moved by -reach to reach along each vector, is at most `distance` from `a`.
 bool image_is_within(const SphereSet& spheres, std::int64_t a, std::int64_t b, double distance, int reach) {
-  std::array<Vec3d, 3> vectors = spheres.cell()->vectors;
-  for (Vec3d& vector : vectors) vector = vector * spheres.scale();
   const double limit = distance * spheres.scale();
-  std::array<int, 3> most{};
-  for (std::size_t k = 0; k < 3; ++k) most[k] = spheres.cell()->periodic[k] && vectors[k] != Vec3d{} ? reach : 0;
-  for (int i = -most[0]; i <= most[0]; ++i)
-    for (int j = -most[1]; j <= most[1]; ++j)
-      for (int k = -most[2]; k <= most[2]; ++k) {
-        const Vec3d shift = double(i) * vectors[0] + double(j) * vectors[1] + double(k) * vectors[2];
-        const Vec3d between = (spheres.stored_centre(b) - spheres.stored_centre(a)) + shift;
-        if (dot(between, between) <= limit * limit) return true;
-      }
-  return false;
+  bool is_within = false;
+  test::for_each_shift(spheres, reach, [&](Vec3d shift) {
+    const Vec3d between = (spheres.stored_centre(b) - spheres.stored_centre(a)) + shift;
+    is_within |= dot(between, between) <= limit * limit;
+  });
+  return is_within;
 }
 
 TEST(Selection, WithinSeesTheImagesOfEveryCell) {
-  Cell slab{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}};
-  slab.periodic[2] = false;
-  const std::vector<Cell> cells{{{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}},
-                                {{}, {Vec3d{4, 0, 0}, Vec3d{1.9, 3, 0}, Vec3d{-1.5, 1.2, 5}}},
-                                {{}, {Vec3d{-2, 1, 0.5}, Vec3d{1.9, 3, 0}, Vec3d{0.25, 1.2, -2}}},
-                                {{}, {Vec3d{4, 0, 0}, Vec3d{}, Vec3d{1, 0, 3}}},
-                                {{}, {Vec3d{}, Vec3d{0, 2, 0.5}, Vec3d{}}},
-                                slab};
+  const std::vector<Cell>& cells = test::periodic_cells();
   SplitMix64 random(36);
   for (const Cell& cell : cells)
     for (const double distance : {0.0, 0.4, 1.0, 2.5, 7.0}) {
       // Some lie in the cell, others have left it.
       std::vector<double> x, y, z;
       for (int i = 0; i < 40; ++i) {
-        Vec3d at = random.next_double() * cell.vectors[0] + random.next_double() * cell.vectors[1] +
-                   random.next_double() * cell.vectors[2];
+        Vec3d at = test::point_in(cell, random);
         if (i % 4 == 0) at = at + double(random.next_below(3)) * cell.vectors[0] - 2.0 * cell.vectors[1];
         if (i == 7) at = {x[2] + cell.vectors[0].x, y[2] + cell.vectors[0].y, z[2] + cell.vectors[0].z};
         x.push_back(at.x), y.push_back(at.y), z.push_back(at.z);
