@@ -105,7 +105,7 @@ PointOptions options_of(const bihive_tree& tree, int distance_to, const std::uin
           tree.images ? &*tree.images : nullptr};
 }
 
-// `vectors`: of the cell, or null.
+// `vectors` holds the 9 numbers of the periodic cell; null without a cell.
 int make_tree(const double* xyz, const double* radii, std::int64_t count, const double* vectors, int threads,
               bihive_tree** tree) {
   if (tree == nullptr) return failed("there is no place for the tree");

@@ -56,9 +56,9 @@ class Tree:
     sphere, bit for bit.
 
     spheres: Spheres, or what render() takes besides paths. select: only these spheres count; ids stay positions in all.
-    periodic: where the spheres have a periodic cell, queries about points see every image of a sphere, at any distance: its
-        position, which then may occur several times, and the distance to the image. Rays meet the spheres alone. False: no
-        images.
+    periodic: queries about points consider all periodic images of the spheres, where these have a cell. An image is
+        returned as the position of its sphere, which may thus occur several times, and the distance to the image. Rays
+        meet the spheres alone. False: no images.
     engine: "auto" (wide), "wide", "reference", "brute" or "wide-brute". max_prims, max_depth: limits of the tree.
     threads: of building and queries; 0: as many as the machine runs at once.
 
@@ -135,7 +135,8 @@ class Tree:
 
         origins, directions: shape (n, 3), or (3,) for one that all rays share. Directions may have any length above 0, and t
             counts in lengths of them: the hit is at origin + t direction. Rays are kept in float32: float64 is rounded once,
-            relative to the spheres if these are far from 0. A ray with NaN, an infinity (or beyond 3.4e38), or a direction of 0 hits nothing.
+            relative to the spheres' origin if they are far from 0. A ray with NaN, an infinity (or beyond 3.4e38), or a
+            direction of 0 hits nothing.
         t_min, t_max: the part of the ray that counts, both ends with it: one number, or shape (n,); 0 and inf.
         leaves: the sphere on which a ray starts, int64, one or (n,); -1: none. It is not met again, or with inside=True (one,
             or bool (n,)) at its far side alone.

@@ -207,7 +207,7 @@ std::array<bool, 3> periodic(const Spheres& spheres) {
   return cell ? cell->periodic : std::array<bool, 3>{};
 }
 
-// `name`: of the argument, for errors. `periodic`: distances see the images along the set's cell.
+// `name` names the argument in errors. With `periodic`, distances are to the nearest image in the set's periodic cell.
 py::array_t<bool> select(const Spheres& spheres, const std::string& expression, const std::string& name,
                          bool periodic) {
   std::vector<std::uint8_t> mask;

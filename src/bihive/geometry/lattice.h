@@ -24,8 +24,8 @@ inline ImageCounts operator-(const ImageCounts& a, const ImageCounts& b) {
 /// All sums of whole multiples of the periodic vectors of a cell, one to three of them, skewed or not.
 class Lattice {
  public:
-  /// Nothing: the cell is periodic along no vector, or its periodic vectors lie (nearly) in a plane or on a line, as
-  /// those of a placeholder may, or one of them is 2^14 times as long as another.
+  /// Nothing if the cell is periodic along no vector, if its periodic vectors lie (nearly) in a plane or on a line, as
+  /// those of a placeholder may, or if one of them is more than 2^14 times as long as another.
   static std::optional<Lattice> of(const Cell& cell);
   static std::optional<Lattice> of(const std::optional<Cell>& cell);
 
@@ -63,7 +63,6 @@ class Lattice {
   struct Range {
     ImageCounts first{}, last{};
     bool empty() const { return first[0] > last[0] || first[1] > last[1] || first[2] > last[2]; }
-    bool holds_zero_alone() const { return first == ImageCounts{} && last == ImageCounts{}; }
     double count() const;
   };
   Range images_within(double distance, Vec3d from, Vec3d lo, Vec3d hi, double largest) const;
@@ -71,8 +70,8 @@ class Lattice {
  private:
   Lattice() = default;
 
-  std::array<Vec3d, 3> vectors_;         // 0: not periodic
-  std::array<Vec3d, 3> rows_;            // of the inverse; 0: not periodic
+  std::array<Vec3d, 3> vectors_;         // (0, 0, 0) along those that are not periodic
+  std::array<Vec3d, 3> rows_;            // the inverse of the matrix of vectors, row by row; (0, 0, 0) likewise
   std::array<double, 3> row_lengths_{};  // 1 / the distance between neighbouring planes of the lattice
   double covering_ = 0, longest_ = 0, shortest_ = 0, condition_ = 1;
 };

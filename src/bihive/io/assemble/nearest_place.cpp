@@ -26,6 +26,9 @@ constexpr double kScaleForSmall = 0x1p600;
 // A place on the border of a cell and its image on the other side may differ by the file's last digit.
 constexpr double kSamePlace = 0x1p-20;
 
+// At most this many images are tried for one place. Two kinds of places would need more, and would take time without an end:
+// those so far away that rounding leaves them outside the cell, and those without a neighbour in an extremely skewed
+// cell.
 constexpr double kMostImages = 4096;
 
 double largest_of(Vec3d p) {
@@ -86,7 +89,6 @@ double NearestPlace::distance_from(Vec3d from) const {
     visit(0, search);
     const auto range =
         lattice_->images_within(std::sqrt(search.best), search.from, lowest_share_, highest_share_, largest);
-    // Of places so far away that they stay outside the cell, images tell nothing.
     if (range.count() > kMostImages) return std::sqrt(search.best);
     any_image(range, [&](const ImageCounts& counts) {
       if (counts == ImageCounts{}) return false;

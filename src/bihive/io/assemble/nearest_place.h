@@ -21,7 +21,8 @@ class NearestPlace {
   /// The distance to the nearest of the points that differs from `from`; infinity if none does. It is the smallest of
   /// all distances length(point - from), bit for bit, but where their squares would underflow it is exact as well. Of
   /// a lattice, `from` is one of the places, also where it is not among the points; and what lies nearer to it than a
-  /// millionth of the cell is at its own place, such as a point on the far border of the cell.
+  /// millionth of the cell is at its own place, such as a point on the far border of the cell. Where more than 4,096
+  /// images could be nearest, the distance is that to the nearest point in the cell, at most the shortest vector.
   double distance_from(Vec3d from) const;
 
  private:

@@ -225,11 +225,10 @@ Status apply_wrapping(RawSpheres& raw, Wrapping wrapping, const std::string& nam
     return unwrap_by_flags(raw, shares, flags, name);
   const std::optional<Together> together = find_together(raw);
   if (!together)
-    return Error{
-        "nothing says which spheres belong together", name, 0, 0,
-        std::string("to ") +
-            (wrapping == Wrapping::unwrap ? "unwrap needs columns ix, iy and iz, or" : "wrap molecules needs") +
-            " a column mol, bonds (MOL2, SDF) or residues (PDB, mmCIF, GRO)"};
+    return Error{"nothing says which spheres belong together", name, 0, 0,
+                 std::string(wrapping == Wrapping::unwrap ? "unwrapping needs columns ix, iy and iz, or"
+                                                          : "wrapping molecules needs") +
+                     " a column mol, bonds (MOL2, SDF) or residues (PDB, mmCIF, GRO)"};
   const std::vector<std::vector<std::size_t>> molecules = bring_together(raw, shares, *together);
   raw.rules.push_back("unwrapped: " + together->known_by);
   if (wrapping != Wrapping::wrap_molecules) return Done{};

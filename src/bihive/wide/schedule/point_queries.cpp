@@ -19,7 +19,7 @@ namespace bihive {
 namespace wide {
 namespace {
 
-// Lists of more images of one sphere are a mistake.
+// A limit that reaches more images of one sphere is most likely in a wrong unit, and the lists would fill the memory.
 constexpr double kMostImages = 1e6;
 
 constexpr double kInfiniteDistance = std::numeric_limits<double>::infinity();
