@@ -32,12 +32,11 @@ class Places:
     """What a reader found: an n x 3 array, and which of its rows bihive may leave out (alternate conformers).
 
     cell: of a crystal, where atoms may come in another order, in another copy of the cell, and several at one place.
-    any_order: the reader sorts its atoms.
     """
 
-    def __init__(self, xyz, optional=None, cell=None, any_order=False):
+    def __init__(self, xyz, optional=None, cell=None):
         self.xyz = np.asarray(xyz, dtype=float).reshape(-1, 3)
-        self.cell, self.any_order = cell, any_order
+        self.cell = cell
         self.optional = np.zeros(len(self.xyz), bool) if optional is None else np.asarray(optional, bool)
 
 
@@ -55,8 +54,7 @@ def by_ase(path, frame, **options):
     import ase.io
 
     atoms = ase.io.read(str(path), index=frame, **options)
-    kind = options.get("format")
-    return Places(atoms.positions, cell=np.array(atoms.cell) if kind == "cif" else None, any_order=kind == "lammps-dump-text")
+    return Places(atoms.positions, cell=np.array(atoms.cell) if options.get("format") == "cif" else None)
 
 
 def by_lines_of_pdb(path, frame):
@@ -150,7 +148,7 @@ def by_lammps_data(path, frame):
     error = None
     for style in styles:
         try:
-            atoms = ase.io.read(str(path), format="lammps-data", style=style, sort_by_id=False)
+            atoms = ase.io.read(str(path), format="lammps-data", style=style, sort_by_id=True)
             return Places(atoms.positions)
         except Exception as found:
             error = found
@@ -289,26 +287,20 @@ class Bihive:
 
 
 def farthest(ours, theirs):
-    """How far the farthest place of either set is from its nearest in the other; in a crystal modulo the cell."""
+    """How far the farthest place of either crystal is from its nearest in the other, modulo the cell."""
     from scipy.spatial import cKDTree
 
-    if theirs.cell is None and len(ours) != len(theirs.xyz):
-        return None
-    if theirs.cell is None:
-        both = [ours, theirs.xyz]
-        images = both
-    else:
-        inverse = np.linalg.inv(theirs.cell)
-        both = [(xyz @ inverse) % 1.0 @ theirs.cell for xyz in (ours, theirs.xyz)]
-        shifts = np.array([[a, b, c] for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1)]) @ theirs.cell
-        images = [(xyz[:, None, :] + shifts[None]).reshape(-1, 3) for xyz in both]
+    inverse = np.linalg.inv(theirs.cell)
+    both = [(xyz @ inverse) % 1.0 @ theirs.cell for xyz in (ours, theirs.xyz)]
+    shifts = np.array([[a, b, c] for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1)]) @ theirs.cell
+    images = [(xyz[:, None, :] + shifts[None]).reshape(-1, 3) for xyz in both]
     return max(float(cKDTree(images[1 - i]).query(both[i])[0].max()) for i in (0, 1))
 
 
-# The same places in the same order, if both leave out what is optional; else as sets.
+# The same places in the same order, if both leave out what is optional; those of crystals in any order.
 def difference(ours, theirs):
     """The largest difference of a coordinate, and how many atoms the other reader has more (alternates). None: no match."""
-    if theirs.cell is not None or theirs.any_order:
+    if theirs.cell is not None:
         return farthest(ours, theirs), 0
     if len(ours) == len(theirs.xyz):
         return (float(np.abs(ours - theirs.xyz).max()) if len(ours) else 0.0), 0
