@@ -44,10 +44,11 @@ typedef struct bihive_tree bihive_tree;
  * that is not finite or beyond 3.4e38, a negative radius, not enough memory. */
 BIHIVE_API int bihive_tree_new(const double* xyz, const double* radii, int64_t count, int threads, bihive_tree** tree);
 /* The same for spheres that repeat along the vectors of a periodic cell: three times x, y, z; a vector of 0, 0, 0: not
- * along it. bihive_nearest() and bihive_within() then see every image of a sphere, at any distance: under the sphere's
- * id, which may occur several times, with the distance to the image. Rays meet the spheres alone. Vectors that lie in a
- * plane or on a line, or are all 0, give no images. Failures: also a vector that is not finite, and later a limit that
- * reaches more than a million images. */
+ * along it. All queries then see every image of a sphere, at any distance: under the sphere's id, which may occur
+ * several times, with the distance to the image. A ray exits the image of `leaves` whose surface is nearest to the
+ * ray's origin. Vectors that lie in a plane or on a line, or are all 0, give no images. Failures: also a vector that is
+ * not finite, and later a limit that reaches more than a million images, or a ray that passes more than 16384 cells
+ * without an end: give it a t_max. */
 BIHIVE_API int bihive_tree_new_in_cell(const double* xyz, const double* radii, int64_t count, const double* vectors,
                                        int threads, bihive_tree** tree);
 BIHIVE_API void bihive_tree_free(bihive_tree* tree);

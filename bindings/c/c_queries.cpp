@@ -105,6 +105,27 @@ PointOptions options_of(const bihive_tree& tree, int distance_to, const std::uin
           tree.images ? &*tree.images : nullptr};
 }
 
+// The same where rays may see images. in_images(images, rays, first, chunk) returns a ray of the chunk without an end,
+// or kNothing.
+template <class Answer, class InImages>
+int for_rays(const bihive_tree& tree, const bihive_rays& rays, int threads, const Answer& answer,
+             const InImages& in_images) {
+  if (!tree.images) return for_parts(tree, rays, threads, answer);
+  if (const Status status = tree.images->check_rays(); !status) return failed(status.error());
+  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  std::atomic<std::int64_t> without_end{kNone};
+  const int done = for_parts(tree, rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t number) {
+    if (without_end <= first) return;
+    const std::int64_t ray = in_images(*tree.images, part, first, number);
+    if (ray == kNothing) return;
+    std::int64_t known = without_end;
+    while (first + ray < known && !without_end.compare_exchange_weak(known, first + ray)) {
+    }
+  });
+  if (done != kDone || without_end == kNone) return done;
+  return failed(PeriodicImages::ray_without_end(without_end));
+}
+
 // `vectors` holds the 9 numbers of the periodic cell; null without a cell.
 int make_tree(const double* xyz, const double* radii, std::int64_t count, const double* vectors, int threads,
               bihive_tree** tree) {
@@ -177,9 +198,15 @@ int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads
   return guarded([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return failed("there is no place for the hits");
-    return for_parts(*tree, *rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
-      closest_hits(*tree->tree, part, RayOrder::any, HitSpan{t, spheres}.part(first));
-    });
+    const HitSpan hits{t, spheres};
+    return for_rays(
+        *tree, *rays, threads,
+        [&](const RaySpan& part, std::int64_t first, std::int64_t) {
+          closest_hits(*tree->tree, part, RayOrder::any, hits.part(first));
+        },
+        [&](const PeriodicImages& images, const RaySpan& part, std::int64_t first, std::int64_t) {
+          return images.closest_hits(*tree->tree, part, hits.part(first));
+        });
   });
 }
 
@@ -187,9 +214,14 @@ int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int thread
   return guarded([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     if (rays->count > 0 && hidden == nullptr) return failed("there is no place for the answers");
-    return for_parts(*tree, *rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
-      occluded(*tree->tree, part, RayOrder::any, hidden + first);
-    });
+    return for_rays(
+        *tree, *rays, threads,
+        [&](const RaySpan& part, std::int64_t first, std::int64_t) {
+          occluded(*tree->tree, part, RayOrder::any, hidden + first);
+        },
+        [&](const PeriodicImages& images, const RaySpan& part, std::int64_t first, std::int64_t) {
+          return images.occluded(*tree->tree, part, hidden + first);
+        });
   });
 }
 
@@ -245,9 +277,14 @@ int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int thread
   return guarded([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     std::vector<std::vector<RayHit>> of_part(static_cast<std::size_t>(rays->count / kRaysPerPart + 1));
-    const int done = for_parts(*tree, *rays, threads, [&](const RaySpan& part, std::int64_t, std::int64_t number) {
-      all_hits(*tree->tree, part, of_part[static_cast<std::size_t>(number)]);
-    });
+    const int done = for_rays(
+        *tree, *rays, threads,
+        [&](const RaySpan& part, std::int64_t, std::int64_t number) {
+          all_hits(*tree->tree, part, of_part[static_cast<std::size_t>(number)]);
+        },
+        [&](const PeriodicImages& images, const RaySpan& part, std::int64_t, std::int64_t number) {
+          return images.all_hits(*tree->tree, part, of_part[static_cast<std::size_t>(number)]);
+        });
     if (done != kDone) return done;
     // The hits of each chunk are in order: count them for each ray, and concatenate them.
     auto made = std::make_unique<bihive_lists>();

@@ -9,7 +9,9 @@
 
 namespace {
 
+// In a skewed cell, so that `within` knows images.
 constexpr std::string_view kAtoms =
+    "CRYST1   30.000   20.000   25.000  80.00  95.00 110.00 P 1           1          \n"
     "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 20.25           N  \n"
     "ATOM      2  CA  ALA A   1      12.104   6.134  -6.504  1.00 20.25           C  \n"
     "HETATM    3  O   HOH B   2      10.125   0.000   3.000  0.50 15.00           O  \n";

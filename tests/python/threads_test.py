@@ -99,7 +99,8 @@ class Threads(ProgramTest):
         arguments = {"closest": RAYS, "occluded": RAYS, "all_hits": RAYS, "nearest": (points, 3), "within": (points, 1.0),
                      "contains": (points,), "overlaps": (points, 0.5)}
         ray = (*RAYS, None, None, None, None)
-        arguments |= {"core.closest": (*ray, False), "core.occluded": (*ray, True), "core.all_hits": ray,
+        arguments |= {"core.closest": (*ray, True, False), "core.occluded": (*ray, False, True),
+                      "core.all_hits": (*ray, False),
                       "core.nearest": (points, 2, 9.0, True), "core.within": (points, np.ones(20), False)}
         calls = calls_of(tree, self.folder, arguments)
         del calls["pickled"]

@@ -260,6 +260,48 @@ class Queries(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "periodic"):
             bh.Spheres(places, radius=0.1, cell=[3, 3, 3], periodic="yes")
 
+    def test_rays_see_the_images_of_a_cell(self):
+        rng = np.random.default_rng(4)
+        places = rng.random((60, 3)) * [3, 2, 4]
+        vectors = np.array([[3, 0, 0], [0.5, 2, 0], [-1, 0.25, 4]])
+        crystal = bh.Spheres(places, radius=0.2, cell=vectors)
+        tree = bh.Tree(crystal)
+        origins, directions = rng.random((40_000, 3)) * 3, rng.normal(size=(40_000, 3))
+        directions /= np.linalg.norm(directions, axis=1)[:, None]
+        t, ids = tree.closest(origins, directions, t_max=4, periodic=True)
+        # All images that may be as near, as spheres of their own.
+        shifts = (np.indices((9, 9, 9)).reshape(3, -1).T - 4) @ vectors
+        every = bh.Spheres((places + shifts[:, None]).reshape(-1, 3), radius=0.2)
+        others_t, others = bh.Tree(every).closest(origins, directions, t_max=4)
+        self.assertGreater((ids >= 0).sum(), 20_000)
+        np.testing.assert_array_equal(ids, np.where(others >= 0, others % 60, -1))
+        np.testing.assert_allclose(t, others_t, atol=1e-4)
+        np.testing.assert_array_equal(tree.occluded(origins, directions, t_max=4, periodic=True), ids >= 0)
+        hits = tree.all_hits(origins[:1000], directions[:1000], t_max=4, periodic=True)
+        self.assertEqual(len(hits.t), len(bh.Tree(every).all_hits(origins[:1000], directions[:1000], t_max=4).t))
+        np.testing.assert_array_equal(hits.t[hits.begin[:-1]][ids[:1000] >= 0], t[:1000][ids[:1000] >= 0])
+        # A ray goes on from an image that it met.
+        one = bh.Tree(bh.Spheres([[1, 1, 1]], radius=1, cell=[4, 4, 4]))
+        self.assertEqual(one.closest([14, 1, 1], [1, 0, 0], leaves=0, periodic=True)[0].tolist(), [2])
+        self.assertEqual(one.closest([14, 1, 1], [1, 0, 0])[1].tolist(), [-1])  # as in pictures
+        channel = [[1, 1, 1], [3, 3, 3]], [1, 0, 0]
+        for query in (one.closest, one.occluded):
+            with self.assertRaisesRegex(ValueError, "t_max: ray 1 passes more than 16384 periodic cells"):
+                query(*channel, periodic=True)
+        self.assertEqual(one.closest(*channel, t_max=100, periodic=True)[1].tolist(), [0, -1])
+        with self.assertRaisesRegex(ValueError, "ray 0"):
+            one.all_hits(*channel, periodic=True)
+        self.assertEqual(one.all_hits(*channel, t_max=100, periodic=True).ray.tolist(), [0] * 26)
+        with self.assertRaisesRegex(ValueError, "wide engine"):
+            bh.Tree(crystal, engine="reference").closest([0, 0, 0], [1, 0, 0], periodic=True)
+        for alone in (bh.Tree(crystal, periodic=False), bh.Tree(every)):
+            with self.assertRaisesRegex(ValueError, "periodic: the tree has no images"):
+                alone.closest([0, 0, 0], [1, 0, 0], periodic=True)
+        with self.assertRaisesRegex(ValueError, "wrap"):
+            bh.Tree(bh.Spheres([[0, 0, 0], [900, 900, 0]], radius=1, cell=[9, 9, 9])).closest(
+                [0, 0, 0], [1, 0, 0], periodic=True
+            )
+
     def test_points_of_a_selection_and_in_pieces(self):
         points = RNG.normal(size=(140_000, 3))  # more than are asked between two looks for Ctrl-C
         some = bh.Tree(self.spheres, select="charge > 0")

@@ -61,6 +61,7 @@ class Tree:
         t_max: Optional[_Array],
         leaves: Optional[_Array],
         inside: Optional[_Array],
+        see_images: bool,
         in_blocks: bool,
     ) -> tuple[_Array, _Array]: ...
     def occluded(
@@ -71,6 +72,7 @@ class Tree:
         t_max: Optional[_Array],
         leaves: Optional[_Array],
         inside: Optional[_Array],
+        see_images: bool,
         in_blocks: bool,
     ) -> _Array: ...
     def all_hits(
@@ -81,6 +83,7 @@ class Tree:
         t_max: Optional[_Array],
         leaves: Optional[_Array],
         inside: Optional[_Array],
+        see_images: bool,
     ) -> tuple[_Array, _Array, _Array]: ...
     def nearest(self, points: _Array, k: int, within: float, to_centre: bool) -> tuple[_Array, _Array]: ...
     def within(self, points: _Array, limits: _Array, to_centre: bool) -> tuple[_Array, _Array, _Array]: ...

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -57,8 +59,8 @@ class Tree:
 
     spheres: Spheres, or what render() takes besides paths. select: only these spheres count; ids stay positions in all.
     periodic: queries about points consider all periodic images of the spheres, where these have a cell. An image is
-        returned as the position of its sphere, which may thus occur several times, and the distance to the image. Rays
-        meet the spheres alone. False: no images.
+        returned as the position of its sphere, which may thus occur several times, and the distance to the image. Rays meet
+        the spheres alone, as in pictures, unless the query has periodic=True. False: no images.
     engine: "auto" (wide), "wide", "reference", "brute" or "wide-brute". max_prims, max_depth: limits of the tree.
     threads: of building and queries; 0: as many as the machine runs at once.
 
@@ -72,6 +74,8 @@ class Tree:
     >>> box = Tree(Spheres([[0.5, 0, 0], [9.5, 0, 0]], radius=0.1, cell=[10, 10, 10]))
     >>> box.within([0.5, 0, 0], 1.5, to="centre").id.tolist()
     [0, 1]
+    >>> box.closest([5, 0, 0], [1, 0, 0], t_min=5, periodic=True)[1].tolist()  # the first sphere again, at 10.5
+    [0]
     """
 
     def __init__(
@@ -103,7 +107,7 @@ class Tree:
 
     @property
     def periodic(self) -> bool:
-        """Whether queries about points see images along the spheres' cell."""
+        """Whether there are images along the spheres' cell, for points and for rays with periodic=True."""
         return self._core.periodic
 
     @property
@@ -129,6 +133,7 @@ class Tree:
         t_max: Any = None,
         leaves: Any = None,
         inside: Any = None,
+        periodic: bool = False,
         order: str = "any",
     ) -> tuple[Array, Array]:
         """The nearest hit of each ray: t, float64 (n,), inf for none; and the sphere's position, int64 (n,), -1 for none.
@@ -139,12 +144,16 @@ class Tree:
             direction of 0 hits nothing.
         t_min, t_max: the part of the ray that counts, both ends with it: one number, or shape (n,); 0 and inf.
         leaves: the sphere on which a ray starts, int64, one or (n,); -1: none. It is not met again, or with inside=True (one,
-            or bool (n,)) at its far side alone.
+            or bool (n,)) at its far side alone. Of its images, the one whose surface is nearest to the origin.
+        periodic: rays meet the images of the spheres too, as positions of their spheres.
         order: "blocks" if each 64 neighbours are close to each other, as 8 x 8 pixels are: faster. The answers do not change.
 
-        Other Python threads run meanwhile, and Ctrl-C ends it.
+        Other Python threads run meanwhile, and Ctrl-C ends it. Error: InputError for a periodic ray that passes 16,384
+        cells without a hit or a t_max.
         """
-        t, ids = self._core.closest(*self._rays(origins, directions, t_min, t_max, leaves, inside), _in_blocks(order))
+        rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
+        with _t_max_needed():
+            t, ids = self._core.closest(*rays, self._images(periodic), _in_blocks(order))
         return t, self._positions(ids)
 
     def occluded(
@@ -156,10 +165,13 @@ class Tree:
         t_max: Any = None,
         leaves: Any = None,
         inside: Any = None,
+        periodic: bool = False,
         order: str = "any",
     ) -> Array:
         """Whether each ray hits anything: bool (n,). Arguments as those of closest(); faster than that."""
-        return self._core.occluded(*self._rays(origins, directions, t_min, t_max, leaves, inside), _in_blocks(order))
+        rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
+        with _t_max_needed():
+            return self._core.occluded(*rays, self._images(periodic), _in_blocks(order))
 
     def all_hits(
         self,
@@ -170,10 +182,12 @@ class Tree:
         t_max: Any = None,
         leaves: Any = None,
         inside: Any = None,
+        periodic: bool = False,
     ) -> Hits:
-        """Every sphere that each ray meets, where it enters. Arguments as those of closest()."""
+        """Every sphere that each ray meets, where it enters. Arguments as those of closest(); periodic rays need t_max."""
         rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
-        ray, t, ids = self._core.all_hits(*rays)
+        with _t_max_needed():
+            ray, t, ids = self._core.all_hits(*rays, self._images(periodic))
         begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
         return Hits(ray, t, self._positions(ids), begin)
 
@@ -244,6 +258,11 @@ class Tree:
             raise bad_argument("radii", "expected finite numbers of at least 0")
         return self._within("radii", where, sizes.astype(np.float64), "surface")
 
+    def _images(self, periodic: Any) -> bool:
+        if boolean("periodic", periodic) and not self.periodic:
+            raise bad_argument("periodic", "the tree has no images: its spheres have no periodic cell, or it was made without")
+        return bool(periodic)
+
     def _positions(self, ids: Array) -> Array:
         """Positions among all spheres, of positions in the subset."""
         if self._ids is None or len(self._ids) == 0:
@@ -289,6 +308,17 @@ class Tree:
             left,
             into,
         )
+
+
+@contextmanager
+def _t_max_needed() -> Iterator[None]:
+    """Names the argument when a ray of a periodic tree has no end."""
+    try:
+        yield
+    except InputError as error:
+        if "without an end" in str(error):
+            raise bad_argument("t_max", str(error)) from None
+        raise
 
 
 def _memory() -> int:

@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -143,6 +144,34 @@ void trace_in_pieces(const RayTree& tree, const RayArrays& rays, RayOrder order,
   if (no_memory) throw std::bad_alloc();
 }
 
+// Which of a periodic tree's rays had no answer first, in the order of the rays. Pieces after it are passed over.
+class FirstWithoutEnd {
+ public:
+  bool is_before(std::int64_t ray) const { return first_ <= ray; }
+  void take(std::int64_t first, std::int64_t in_piece) {
+    if (in_piece == kNothing) return;
+    std::int64_t known = first_;
+    while (first + in_piece < known && !first_.compare_exchange_weak(known, first + in_piece)) {
+    }
+  }
+  void check() const {
+    if (first_ != kNone) value_of(Status(PeriodicImages::ray_without_end(first_)));
+  }
+
+ private:
+  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  std::atomic<std::int64_t> first_{kNone};
+};
+
+// The tree of rays that see images. Null: they do not. bihive/_tree.py has checked that there are images.
+const WideTree* tree_of_images(const RayTree& tree, bool periodic) {
+  if (!periodic) return nullptr;
+  const WideTree* const wide = tree.tracer->wide_tree();
+  if (wide == nullptr) fail_usage("periodic rays need the wide engine", "leave out engine");
+  value_of(tree.images->check_rays());
+  return wide;
+}
+
 // bihive/_tree.py has checked shapes and types. `origin` and `direction`: (n, 3).
 RayArrays rays_from(const py::array& origin, const py::array& direction, const std::optional<py::array>& t_min,
                     const std::optional<py::array>& t_max, const std::optional<py::array_t<std::int64_t>>& leaves,
@@ -167,30 +196,42 @@ RayOrder order_of(bool in_blocks) {
 py::tuple closest(const RayTree& tree, const py::array& origin, const py::array& direction,
                   const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                   const std::optional<py::array_t<std::int64_t>>& leaves,
-                  const std::optional<py::array_t<std::uint8_t>>& inside, bool in_blocks) {
+                  const std::optional<py::array_t<std::uint8_t>>& inside, bool see_images, bool in_blocks) {
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
   py::array_t<double> t(rays.count);
   py::array_t<std::int64_t> id(rays.count);
   const HitSpan hits{t.mutable_data(), id.mutable_data()};
   const RayOrder order = order_of(in_blocks);
+  const WideTree* const periodic = tree_of_images(tree, see_images);
+  FirstWithoutEnd without_end;
   trace_in_pieces(tree, rays, order, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-    tree.tracer->closest_hits(span, order, hits.part(first));
+    if (periodic == nullptr)
+      tree.tracer->closest_hits(span, order, hits.part(first));
+    else if (!without_end.is_before(first))
+      without_end.take(first, tree.images->closest_hits(*periodic, span, hits.part(first)));
   });
+  without_end.check();
   return py::make_tuple(t, id);
 }
 
 py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const py::array& direction,
                            const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                            const std::optional<py::array_t<std::int64_t>>& leaves,
-                           const std::optional<py::array_t<std::uint8_t>>& inside, bool in_blocks) {
+                           const std::optional<py::array_t<std::uint8_t>>& inside, bool see_images, bool in_blocks) {
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
   py::array_t<bool> hidden(rays.count);
   static_assert(sizeof(bool) == sizeof(std::uint8_t));
   auto* const to = reinterpret_cast<std::uint8_t*>(hidden.mutable_data());
   const RayOrder order = order_of(in_blocks);
+  const WideTree* const periodic = tree_of_images(tree, see_images);
+  FirstWithoutEnd without_end;
   trace_in_pieces(tree, rays, order, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-    tree.tracer->occluded(span, order, to + first);
+    if (periodic == nullptr)
+      tree.tracer->occluded(span, order, to + first);
+    else if (!without_end.is_before(first))
+      without_end.take(first, tree.images->occluded(*periodic, span, to + first));
   });
+  without_end.check();
   return hidden;
 }
 
@@ -198,16 +239,22 @@ py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const p
 py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::array& direction,
                     const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                     const std::optional<py::array_t<std::int64_t>>& leaves,
-                    const std::optional<py::array_t<std::uint8_t>>& inside) {
+                    const std::optional<py::array_t<std::uint8_t>>& inside, bool see_images) {
+  const WideTree* const periodic = tree_of_images(tree, see_images);
   const WideTree& wide = wide_tree_for(tree, "all_hits");
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
   const std::int64_t most = rays_per_piece(tree, rays.count, RayOrder::blocks);
   std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
+  FirstWithoutEnd without_end;
   trace_in_pieces(tree, rays, RayOrder::blocks, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
     std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
-    all_hits(wide, span, found);
+    if (periodic == nullptr)
+      all_hits(wide, span, found);
+    else if (!without_end.is_before(first))
+      without_end.take(first, tree.images->all_hits(wide, span, found));
     for (RayHit& hit : found) hit.ray += first;
   });
+  without_end.check();
   std::size_t count = 0;
   for (const std::vector<RayHit>& some : hits) count += some.size();
   const auto size = static_cast<py::ssize_t>(count);
@@ -223,7 +270,7 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
 }
 
 // `part`: ids of a subset of the spheres; their positions in it are the answers' ids. `words`: options of `bihive
-// trace` about tree, engine and threads. `periodic`: points see the images along the set's cell.
+// trace` about tree, engine and threads. `periodic`: queries see the images along the set's cell.
 std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
                                     bool periodic, const std::vector<std::string>& words) {
   const PictureRequest options = request_of(words);

@@ -16,7 +16,7 @@ namespace bihive::python {
 struct RayTree {
   SharedSpheres spheres;
   std::optional<Tracer> tracer;
-  std::optional<PeriodicImages> images;  ///< of queries about points
+  std::optional<PeriodicImages> images;  ///< of a periodic set
   int threads = 0;
 };
 

@@ -108,8 +108,8 @@ double Lattice::Range::count() const {
 }
 
 // A share is a dot product: it is wrong by some roundings of length(vector) * row_length * condition.
-Lattice::Range Lattice::images_within(double distance, Vec3d from, Vec3d lo, Vec3d hi, double largest) const {
-  const Vec3d share = shares(from);
+Lattice::Range Lattice::images_within(double distance, Vec3d from, Vec3d to, Vec3d lo, Vec3d hi, double largest) const {
+  const Vec3d one = shares(from), other = shares(to);
   Range range;
   for (std::size_t k = 0; k < 3; ++k) {
     if (row_lengths_[k] == 0) continue;
@@ -120,8 +120,8 @@ Lattice::Range Lattice::images_within(double distance, Vec3d from, Vec3d lo, Vec
     const auto whole = [](double number) {
       return static_cast<std::int64_t>(std::clamp(number, -kMostCells, kMostCells));
     };
-    range.first[k] = whole(std::ceil(share[axis] - reach - hi[axis] - pad));
-    range.last[k] = whole(std::floor(share[axis] + reach - lo[axis] + pad));
+    range.first[k] = whole(std::ceil(std::min(one[axis], other[axis]) - reach - hi[axis] - pad));
+    range.last[k] = whole(std::floor(std::max(one[axis], other[axis]) + reach - lo[axis] + pad));
   }
   return range;
 }

@@ -56,16 +56,21 @@ class Lattice {
   double shortest() const { return shortest_; }
   /// How many times the rounding of a sum or product may be in a share, and in a shift.
   double condition() const { return condition_; }
+  /// How far a share along vector k moves, at most, with a point that moves by 1. 0 along those that are not periodic.
+  double share_of_length(std::size_t k) const { return row_lengths_[k]; }
 
-  /// The counts n for which images p + shift(n) may lie at most `distance` from `from`, where the shares of all points
-  /// p lie from `lo` to `hi`. `largest`: of all coordinates of both. The distance is not too large: at most some
-  /// thousand cells.
+  /// The counts n for which images p + shift(n) may lie at most `distance` from a point between `from` and `to`, where
+  /// the shares of all points p lie from `lo` to `hi`. `largest`: of all coordinates of both. The distance is not too
+  /// large: at most some thousand cells.
   struct Range {
     ImageCounts first{}, last{};
     bool empty() const { return first[0] > last[0] || first[1] > last[1] || first[2] > last[2]; }
     double count() const;
   };
-  Range images_within(double distance, Vec3d from, Vec3d lo, Vec3d hi, double largest) const;
+  Range images_within(double distance, Vec3d from, Vec3d to, Vec3d lo, Vec3d hi, double largest) const;
+  Range images_within(double distance, Vec3d from, Vec3d lo, Vec3d hi, double largest) const {
+    return images_within(distance, from, from, lo, hi, largest);
+  }
 
  private:
   Lattice() = default;

@@ -54,15 +54,27 @@ Result<std::optional<PeriodicImages>> PeriodicImages::of(const SphereSet& sphere
       }
     }
   };
+  made.lo_ = made.hi_ = spheres.stored_centre(0);
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
-    made.largest_ = std::max(made.largest_, largest_of(spheres.stored_centre(id)));
+    const Vec3d centre = spheres.stored_centre(id);
+    made.largest_ = std::max(made.largest_, largest_of(centre));
     made.largest_radius_ = std::max(made.largest_radius_, spheres.stored_radius(id));
+    for (int axis = 0; axis < 3; ++axis) {
+      made.lo_[axis] = std::min(made.lo_[axis], centre[axis]);
+      made.hi_[axis] = std::max(made.hi_[axis], centre[axis]);
+    }
   }
   take_shares([&](std::int64_t id) { return spheres.stored_centre(id); }, spheres.size());
-  const Vec3d extent = made.highest_share_ - made.lowest_share_;
-  if (std::max({extent.x, extent.y, extent.z}) <= kMostExtent) return std::optional<PeriodicImages>(std::move(made));
-
+  made.lowest_own_ = made.lowest_share_;
+  made.highest_own_ = made.highest_share_;
   try {
+    made.x_ = spheres.x();
+    made.y_ = spheres.y();
+    made.z_ = spheres.z();
+    made.r_ = spheres.r();
+    const Vec3d extent = made.highest_share_ - made.lowest_share_;
+    if (std::max({extent.x, extent.y, extent.z}) <= kMostExtent) return std::optional<PeriodicImages>(std::move(made));
+
     const auto count = static_cast<std::size_t>(spheres.size());
     std::vector<double> x(count), y(count), z(count), r(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -78,10 +90,6 @@ Result<std::optional<PeriodicImages>> PeriodicImages::of(const SphereSet& sphere
     const auto tree = builder.build(*in_cell, {}, threads);
     if (!tree) return tree.error();
     made.in_cell_ = *tree;
-    made.x_ = spheres.x();
-    made.y_ = spheres.y();
-    made.z_ = spheres.z();
-    made.r_ = spheres.r();
     return std::optional<PeriodicImages>(std::move(made));
   } catch (const std::bad_alloc&) {
     return Error{"not enough memory for the images of a periodic cell", "", 0, 0, ""};

@@ -26,6 +26,7 @@
 #include "bihive/wide/trace/scalar_walk.h"
 #include "bihive/wide/trace/single_ray.h"
 #include "bihive/wide/trace/tuning.h"
+#include "bihive/wide/tree/duplicates.h"
 
 namespace bihive {
 namespace wide {
@@ -251,20 +252,6 @@ void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vecto
   if (remaining.count() > 0) all_hits_by_left_sphere(tree, rays, remaining, hits);
 }
 
-// Adds the duplicates of the spheres that were hit.
-void add_piles(const WideTree& traced, std::vector<RayHit>& hits) {
-  const WideTree& tree = traced.is_image ? *traced.image_of : traced;
-  if (tree.piles.empty()) return;
-  for (std::size_t i = 0, known = hits.size(); i < known; ++i) {
-    const RayHit hit = hits[i];
-    const auto pile = std::lower_bound(tree.piles.begin(), tree.piles.end(), hit.sphere_id,
-                                       [](const Pile& one, std::int64_t id) { return one.id < id; });
-    if (pile == tree.piles.end() || pile->id != hit.sphere_id) continue;
-    for (std::size_t k = pile->first_other; k < pile->end_of_others; ++k)
-      hits.push_back({hit.ray, hit.t, tree.others_in_piles[k]});
-  }
-}
-
 // Counting sort by ray; then the few hits of each ray are sorted by t and id.
 void sort_hits(std::int64_t rays, const std::vector<RayHit>& hits, std::vector<RayHit>& sorted) {
   std::vector<std::size_t> next(static_cast<std::size_t>(rays) + 1, 0);
@@ -289,7 +276,7 @@ void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hi
   static thread_local std::vector<RayHit> found;
   found.clear();
   wide::all_hits_in_any_order(tree, rays, found);
-  wide::add_piles(tree, found);
+  add_duplicates(tree, 0, found);
   wide::sort_hits(rays.count, found, hits);
 }
 

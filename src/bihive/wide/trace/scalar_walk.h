@@ -16,22 +16,18 @@
 
 namespace bihive {
 
-/// Takes the ray to spheres as walk() in bih/traversal.h does. `ray` is valid and in the tree's stored units. `left`,
-/// and not `ray`, says which sphere it exits.
-template <class Answer>
-void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, Answer& answer) {
+/// Calls test(slot) for the spheres in leaves that a ray meets at t_min to t_max, and at most test.limit(), until it
+/// returns true. `slabs` are those of the ray relative to the nodes.
+template <class Test>
+void walk_leaves(const WideTree& tree, const Slabs& slabs, double t_min, double t_max, Test& test) {
   if (tree.node_count == 0) return;
-  // The nodes of an image are where the tree has them. Its centres were rounded, which moves them by up to 2^-25.
-  ScaledRay in_tree = ray;
-  if (tree.is_image) in_tree.origin = ray.origin - tree.shift;
-  const Slabs slabs(in_tree, tree.is_image ? 0x1p-24 : 0);
   std::vector<std::int64_t> waiting{0};
   while (!waiting.empty()) {
     const WideNode& node = tree.nodes[waiting.back()];
     waiting.pop_back();
     for (int slot = 0; slot < node.child_count; ++slot) {
       // Skip a child that the ray misses, or enters beyond the limit.
-      Interval part{ray.t_min, std::min(ray.t_max, answer.limit())};
+      Interval part{t_min, std::min(t_max, test.limit())};
       for (int axis = 0; axis < 3; ++axis) {
         part = slabs.above(part, axis, double(node.lo[axis][slot]));
         part = slabs.below(part, axis, double(node.hi[axis][slot]));
@@ -42,15 +38,36 @@ void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, An
         continue;
       }
       const std::int64_t begin = node.sphere_begin(slot);
-      for (std::int64_t i = begin; i < begin + node.sphere_count(slot); ++i) {
-        const Vec3d centre = tree.centre(i);
-        const double radius = tree.spheres.radius(i);
-        ray.left_centre = centre;
-        ray.left_radius = left.is(tree, i) ? radius : -1;
-        if (answer.take(sphere_hit(ray, centre, radius), tree.spheres.id(i))) return;
-      }
+      for (std::int64_t i = begin; i < begin + node.sphere_count(slot); ++i)
+        if (test(i)) return;
     }
   }
+}
+
+/// Takes the ray to spheres as walk() in bih/traversal.h does. `ray` is valid and in the tree's stored units. `left`,
+/// and not `ray`, says which sphere it exits.
+template <class Answer>
+void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, Answer& answer) {
+  struct Test {
+    const WideTree& tree;
+    ScaledRay& ray;
+    const LeftSphere& left;
+    Answer& answer;
+
+    double limit() const { return answer.limit(); }
+    bool operator()(std::int64_t slot) {
+      const Vec3d centre = tree.centre(slot);
+      const double radius = tree.spheres.radius(slot);
+      ray.left_centre = centre;
+      ray.left_radius = left.is(tree, slot) ? radius : -1;
+      return answer.take(sphere_hit(ray, centre, radius), tree.spheres.id(slot));
+    }
+  };
+  // The nodes of an image are where the tree has them. Its centres were rounded, which moves them by up to 2^-25.
+  ScaledRay in_tree = ray;
+  if (tree.is_image) in_tree.origin = ray.origin - tree.shift;
+  Test test{tree, ray, left, answer};
+  walk_leaves(tree, Slabs(in_tree, tree.is_image ? 0x1p-24 : 0), ray.t_min, ray.t_max, test);
 }
 
 /// The same answer as traverse() in bih/traversal.h.

@@ -1,0 +1,273 @@
+// Rays against all images of a periodic set.
+//
+// A ray is followed in windows, in each of which it passes at most one cell along every vector. An image belongs to the
+// window in which the ray enters its part of space: the spheres' shares (geometry/lattice.h), enlarged by the largest
+// radius. So each image is looked at once, and when a hit lies before the next window, nothing nearer is left.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bihive/bih/traversal.h"
+#include "bihive/geometry/sphere.h"
+#include "bihive/wide/periodic_images.h"
+#include "bihive/wide/queries.h"
+#include "bihive/wide/trace/scalar_walk.h"
+#include "bihive/wide/tree/duplicates.h"
+
+namespace bihive {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A ray that starts farther away than this, in cells, has no end for us: rounding would hide in which cell it is.
+constexpr double kFarthestStart = 0x1p30;
+
+constexpr double kMostOverlapping = 4096;
+
+double largest_of(Vec3d p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+// The part of a vector at right angles to those along which the lattice extends.
+Vec3d across(const Lattice& lattice, Vec3d vector) {
+  Vec3d along[3];
+  int count = 0;
+  for (const ImageCounts& one : {ImageCounts{1, 0, 0}, ImageCounts{0, 1, 0}, ImageCounts{0, 0, 1}}) {
+    Vec3d axis = lattice.shift(one);
+    if (axis == Vec3d{}) continue;
+    axis = axis / length(axis);
+    for (int k = 0; k < count; ++k) axis = axis - dot(axis, along[k]) * along[k];
+    along[count++] = axis / length(axis);
+  }
+  if (count == 3) return {};
+  for (int k = 0; k < count; ++k) vector = vector - dot(vector, along[k]) * along[k];
+  return vector;
+}
+
+struct AllHitsOfRay {
+  std::int64_t ray;
+  std::vector<RayHit>& hits;
+
+  bool take(double t, std::int64_t id) const {
+    if (t < limit()) hits.push_back({ray, t, id});
+    return false;
+  }
+  static constexpr double limit() { return kInfinity; }
+  static constexpr bool has_ended() { return false; }
+  static constexpr bool kNeedsEnd = true;
+};
+
+template <bool kAnyHit>
+struct NearestOfRay : NearestAnswer<kAnyHit> {
+  bool has_ended() const { return kAnyHit && this->best.found(); }
+  static constexpr bool kNeedsEnd = false;
+};
+
+// The spheres of one image.
+template <class Answer>
+struct ImageTest {
+  const WideTree& tree;
+  const ScaledRay& ray;
+  Vec3d shift;
+  Answer& answer;
+
+  double limit() const { return answer.limit(); }
+  bool operator()(std::int64_t slot) const {
+    const Vec3d centre = tree.spheres.centre(slot) + shift;
+    return answer.take(sphere_hit(ray, centre, tree.spheres.radius(slot)), tree.spheres.id(slot));
+  }
+};
+
+}  // namespace
+
+// Of the images of the sphere that the ray leaves, the one whose surface is nearest to the ray's origin.
+void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
+  if (ray.leaves < 0 || ray.leaves >= static_cast<std::int64_t>(x_.size())) return;
+  const auto i = static_cast<std::size_t>(ray.leaves);
+  const Vec3d own{double(x_[i]), double(y_[i]), double(z_[i])};
+  const double radius = double(r_[i]);
+  const double largest = std::max(largest_of(scaled.origin), largest_);
+  const Vec3d share = lattice_.shares(own);
+  // From everywhere some image's centre is this near, and its surface at most as far.
+  const double reach = 2 * (radius + lattice_.covering());
+  double nearest = kInfinity;
+  any_image(lattice_.images_within(reach, scaled.origin, share, share, largest), [&](const ImageCounts& counts) {
+    const Vec3d centre = own + lattice_.shift(counts);
+    const double distance = std::abs(length(scaled.origin - centre) - radius);
+    if (distance < nearest) {
+      nearest = distance;
+      scaled.left_centre = centre;
+      scaled.left_radius = radius;
+    }
+    return false;
+  });
+}
+
+// Where the ray is no farther from the directions of the lattice than the spheres are.
+Interval PeriodicImages::near_spheres(const ScaledRay& ray) const {
+  Interval part{ray.t_min, ray.t_max};
+  const Vec3d middle = 0.5 * (lo_ + hi_);
+  const double reach =
+      (length(hi_ - lo_) + largest_radius_) * (1 + 0x1p-20) + 0x1p-40 * (largest_of(ray.origin) + largest_);
+  const Vec3d from = across(lattice_, ray.origin - middle);
+  const Vec3d by = across(lattice_, ray.direction);
+  const double c = dot(from, from) - reach * reach;
+  const double a = dot(by, by);
+  if (a == 0) return c <= 0 ? part : Interval{kInfinity, 0};
+  const double b = dot(from, by);
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return {kInfinity, 0};
+  const double root = std::sqrt(discriminant);
+  part.t_near = std::max(part.t_near, (-b - root) / a);
+  part.t_far = std::min(part.t_far, (-b + root) / a);
+  return part;
+}
+
+// Where the ray may meet spheres of an image, by their shares. The same bits whenever it is asked. The padding is above
+// the rounding of shares, and below half of that of Lattice::images_within(), which finds the images.
+Interval PeriodicImages::in_image(const ScaledRay& ray, Vec3d share, Vec3d speed, const ImageCounts& counts) const {
+  Interval part{-kInfinity, kInfinity};
+  const double largest = largest_of(ray.origin) + largest_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double unit = lattice_.share_of_length(k);
+    if (unit == 0) continue;
+    const auto axis = static_cast<int>(k);
+    const auto n = double(counts[k]);
+    const double reach =
+        largest_radius_ * unit + 0x1p-49 * lattice_.condition() * (1 + 4 * largest * unit + 4 * std::abs(n));
+    const double lo = n + lowest_own_[axis] - reach - share[axis];
+    const double hi = n + highest_own_[axis] + reach - share[axis];
+    if (speed[axis] == 0) {
+      if (lo > 0 || hi < 0) return {kInfinity, 0};
+      continue;
+    }
+    const double one = lo / speed[axis];
+    const double other = hi / speed[axis];
+    part.t_near = std::max(part.t_near, std::min(one, other));
+    part.t_far = std::min(part.t_far, std::max(one, other));
+  }
+  return part;
+}
+
+template <class Answer>
+void PeriodicImages::trace_image(const WideTree& tree, const ScaledRay& ray, const ImageCounts& counts,
+                                 Answer& answer) const {
+  const Vec3d shift = lattice_.shift(counts);
+  ScaledRay in_tree = ray;
+  in_tree.origin = ray.origin - shift;
+  const Slabs slabs(in_tree, 0x1p-46 * (largest_of(ray.origin) + largest_of(shift)));
+  ImageTest<Answer> test{tree, ray, shift, answer};
+  walk_leaves(tree, slabs, ray.t_min, ray.t_max, test);
+}
+
+// Returns whether the ray has an end. With `is_stored_known`, the answer has the spheres that are stored.
+template <class Answer>
+bool PeriodicImages::trace(const WideTree& tree, const Ray& ray, bool is_stored_known, Answer& answer) const {
+  if (!is_valid(ray) || tree.node_count == 0) return true;
+  ScaledRay scaled(ray, tree.scale);
+  const Interval part = near_spheres(scaled);
+  if (part.empty()) return true;
+  const Vec3d share = lattice_.shares(scaled.origin);
+  const Vec3d speed = lattice_.shares(scaled.direction);
+  if (largest_of(share) > kFarthestStart || part.t_near == -kInfinity) return false;
+  set_left_image(ray, scaled);
+
+  // Windows along the ray.
+  const double fastest = largest_of(speed);
+  const double step = fastest > 0 ? 1 / fastest : kInfinity;
+  if (Answer::kNeedsEnd && !((part.t_far - part.t_near) / step <= kMostCells)) return false;
+  struct Entry {
+    double t;
+    ImageCounts counts;
+  };
+  std::vector<Entry> entries;
+  double begin = part.t_near;
+  for (std::int64_t window = 0; window < kMostCells; ++window) {
+    const double end = std::min(part.t_near + double(window + 1) * step, part.t_far);
+    if (end == kInfinity) return false;
+    const bool is_last = end == part.t_far;
+    const Vec3d from = scaled.origin + begin * scaled.direction;
+    const Vec3d to = scaled.origin + end * scaled.direction;
+    const double largest = std::max({largest_of(scaled.origin), largest_of(from), largest_of(to), largest_});
+    entries.clear();
+    any_image(lattice_.images_within(largest_radius_, from, to, lowest_own_, highest_own_, largest),
+              [&](const ImageCounts& counts) {
+                const Interval there = in_image(scaled, share, speed, counts);
+                const bool is_here = (window == 0 || there.t_near >= begin) && (is_last || there.t_near < end);
+                if (!there.empty() && is_here) entries.push_back({there.t_near, counts});
+                return false;
+              });
+    // The nearer ones first, so that hits in them spare the others.
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.t < b.t; });
+    for (const Entry& entry : entries) {
+      if (entry.t > answer.limit()) break;
+      if (is_stored_known && entry.counts == ImageCounts{}) continue;
+      trace_image(tree, scaled, entry.counts, answer);
+      if (answer.has_ended()) return true;
+    }
+    if (is_last || answer.limit() < end) return true;
+    begin = end;
+  }
+  return false;
+}
+
+// The stored spheres are asked first, all rays at once. That does not help rays that leave a sphere: it may be an
+// image's.
+
+std::int64_t PeriodicImages::closest_hits(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) const {
+  bihive::closest_hits(tree, rays, RayOrder::any, hits);
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    const Ray ray = rays.at(i);
+    NearestOfRay<false> nearest;
+    const bool is_known = ray.leaves < 0;
+    if (is_known) nearest.best = {hits.t[i], hits.sphere_id[i]};
+    if (!trace(tree, ray, is_known, nearest)) return i;
+    hits.t[i] = nearest.best.t;
+    hits.sphere_id[i] = nearest.best.sphere_id;
+  }
+  return kNothing;
+}
+
+std::int64_t PeriodicImages::occluded(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) const {
+  bihive::occluded(tree, rays, RayOrder::any, hidden);
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    const Ray ray = rays.at(i);
+    const bool is_known = ray.leaves < 0;
+    if (is_known && hidden[i] != 0) continue;
+    NearestOfRay<true> nearest;
+    if (!trace(tree, ray, is_known, nearest)) return i;
+    hidden[i] = nearest.best.found() ? 1 : 0;
+  }
+  return kNothing;
+}
+
+std::int64_t PeriodicImages::all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) const {
+  hits.clear();
+  for (std::int64_t i = 0; i < rays.count; ++i) {
+    const std::size_t first = hits.size();
+    AllHitsOfRay all{i, hits};
+    if (!trace(tree, rays.at(i), false, all)) return i;
+    add_duplicates(tree, first, hits);
+    std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
+              [](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : a.sphere_id < b.sphere_id; });
+  }
+  return kNothing;
+}
+
+Error PeriodicImages::ray_without_end(std::int64_t ray) {
+  return {"ray " + std::to_string(ray) + " passes more than " + std::to_string(kMostCells) +
+              " periodic cells without an end",
+          "", 0, 0, "give it a smaller t_max, or make the tree without images"};
+}
+
+Status PeriodicImages::check_rays() const {
+  const double images = lattice_.images_within(largest_radius_, {}, lowest_own_, highest_own_, largest_).count();
+  if (images <= kMostOverlapping) return Done{};
+  return Error{"the spheres extend over more than " + std::to_string(int(kMostOverlapping)) +
+                   " periodic cells, too many for rays",
+               "", 0, 0, "wrap them into the cell first, or make the tree without images"};
+}
+
+}  // namespace bihive

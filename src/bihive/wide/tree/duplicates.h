@@ -1,0 +1,28 @@
+// Hits of spheres that coincide: the tree holds one of each pile (WideTree::piles).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "bihive/wide/ray_batch.h"
+#include "bihive/wide/wide_tree.h"
+
+namespace bihive {
+
+/// Adds, for hits from number `first` on, those of the duplicates of their spheres.
+inline void add_duplicates(const WideTree& traced, std::size_t first, std::vector<RayHit>& hits) {
+  const WideTree& tree = traced.is_image ? *traced.image_of : traced;
+  if (tree.piles.empty()) return;
+  for (std::size_t i = first, known = hits.size(); i < known; ++i) {
+    const RayHit hit = hits[i];
+    const auto pile = std::lower_bound(tree.piles.begin(), tree.piles.end(), hit.sphere_id,
+                                       [](const Pile& one, std::int64_t id) { return one.id < id; });
+    if (pile == tree.piles.end() || pile->id != hit.sphere_id) continue;
+    for (std::size_t k = pile->first_other; k < pile->end_of_others; ++k)
+      hits.push_back({hit.ray, hit.t, tree.others_in_piles[k]});
+  }
+}
+
+}  // namespace bihive

@@ -1,0 +1,230 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bihive/geometry/scaled_ray.h"
+#include "bihive/geometry/sphere.h"
+#include "bihive/math/rng.h"
+#include "bihive/wide/periodic_images.h"
+#include "bihive/wide/wide_builder.h"
+#include "support/periodic_cells.h"
+
+namespace bihive {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+struct PeriodicSet {
+  SphereSet spheres;
+  std::shared_ptr<const WideTree> tree;
+  std::optional<PeriodicImages> images;
+
+  PeriodicSet(const std::vector<Vec3d>& centres, const std::vector<double>& radii, const Cell& cell) {
+    std::vector<double> x, y, z;
+    for (const Vec3d& p : centres) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    spheres = SphereSet::from_world(x, y, z, radii).value();
+    spheres.cell() = cell;
+    WideBuilder builder;
+    tree = builder.build(spheres).value();
+    images = PeriodicImages::of(spheres).value();
+  }
+  Hit closest(const Ray& ray) const {
+    RayBatch batch;
+    batch.push_back(ray);
+    Hit hit;
+    EXPECT_EQ(images->closest_hits(*tree, batch.span(), {&hit.t, &hit.sphere_id}), kNothing);
+    return hit;
+  }
+};
+
+// Every image of every sphere, moved by -reach to reach along each periodic vector.
+std::vector<RayHit> all_hits_of(const PeriodicSet& set, const ScaledRay& scaled, std::int64_t number, int reach) {
+  const SphereSet& spheres = set.spheres;
+  std::vector<RayHit> hits;
+  for (std::int64_t id = 0; id < spheres.size(); ++id)
+    test::for_each_shift(spheres, reach, [&](Vec3d shift) {
+      const double t = sphere_hit(scaled, spheres.stored_centre(id) + shift, spheres.stored_radius(id));
+      if (t < kInf) hits.push_back({number, t, id});
+    });
+  std::sort(hits.begin(), hits.end(),
+            [](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : a.sphere_id < b.sphere_id; });
+  return hits;
+}
+
+Vec3f direction_of(SplitMix64& random, int number) {
+  Vec3f direction;
+  for (int axis = 0; axis < 3; ++axis) direction[axis] = static_cast<float>(2 * random.next_double() - 1);
+  if (number % 4 == 0) direction[number / 4 % 3] = 0;        // along a plane of the axes
+  if (number % 8 == 0) direction[(number / 4 + 1) % 3] = 0;  // and along an axis
+  if (direction == Vec3f{}) direction.x = 1;
+  return direction;
+}
+
+TEST(PeriodicRays, AgreeWithAllImages) {
+  SplitMix64 random(5);
+  std::int64_t found = 0, of_images = 0;
+  for (const Cell& cell : test::periodic_cells())
+    for (const bool is_scattered : {false, true}) {
+      std::vector<Vec3d> centres;
+      std::vector<double> radii;
+      for (int i = 0; i < 9; ++i) {
+        centres.push_back(test::point_in(cell, random));
+        radii.push_back(i == 8 ? 0 : 0.1 * (1 + i % 3) + (i == 5 ? 2.5 : 0));  // one is larger than most cells
+        if (is_scattered && i % 3 == 0)
+          centres.back() = centres.back() + double(random.next_below(4)) * cell.vectors[0] - 2.0 * cell.vectors[1];
+      }
+      centres.push_back(centres[4]), radii.push_back(radii[4]);  // coincide
+      centres.push_back(centres[2] + (cell.periodic[0] ? 1.0 : 0.0) * cell.vectors[0]), radii.push_back(radii[2]);
+      const PeriodicSet set(centres, radii, cell);
+      ASSERT_TRUE(set.images && set.images->check_rays());
+      RayBatch rays;
+      for (int i = 0; i < 64; ++i) {
+        Ray ray;
+        ray.origin = to_float(test::point_in(cell, random) + double(i % 3 - 1) * cell.vectors[1]);
+        ray.direction = direction_of(random, i);
+        ray.t_min = i % 5 == 0 ? -1.5 : i % 7 == 0 ? 0.5 : 0;
+        ray.t_max = 4;
+        if (i == 17) ray.t_min = 5;  // invalid
+        rays.push_back(ray);
+      }
+      std::vector<RayHit> hits;
+      std::vector<double> t(64);
+      std::vector<std::int64_t> ids(64);
+      std::vector<std::uint8_t> hidden(64);
+      ASSERT_EQ(set.images->all_hits(*set.tree, rays.span(), hits), kNothing);
+      ASSERT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t.data(), ids.data()}), kNothing);
+      ASSERT_EQ(set.images->occluded(*set.tree, rays.span(), hidden.data()), kNothing);
+      std::size_t at = 0;
+      for (int i = 0; i < 64; ++i) {
+        const Ray ray = rays.span().at(i);
+        std::vector<RayHit> expected;
+        if (is_valid(ray)) expected = all_hits_of(set, ScaledRay(ray, set.spheres.scale()), i, 8);
+        for (const RayHit& hit : expected) {
+          ASSERT_LT(at, hits.size());
+          EXPECT_EQ(hits[at].ray, i);
+          EXPECT_EQ(hits[at].t, hit.t);
+          EXPECT_EQ(hits[at++].sphere_id, hit.sphere_id);
+        }
+        const auto k = static_cast<std::size_t>(i);
+        EXPECT_EQ(t[k], expected.empty() ? kInf : expected[0].t);
+        EXPECT_EQ(ids[k], expected.empty() ? kNothing : expected[0].sphere_id);
+        EXPECT_EQ(hidden[k], expected.empty() ? 0 : 1);
+        found += static_cast<std::int64_t>(expected.size());
+        if (is_valid(ray))
+          of_images -= static_cast<std::int64_t>(all_hits_of(set, ScaledRay(ray, set.spheres.scale()), i, 0).size());
+      }
+      EXPECT_EQ(at, hits.size());
+    }
+  EXPECT_GT(found, 2000);
+  EXPECT_GT(of_images + found, found / 4);  // most hits are of images
+}
+
+TEST(PeriodicRays, FarImagesAreAsExact) {
+  // A ray past 1,000 cells, along a vector of the cell and beside it.
+  const Cell cell{{}, {Vec3d{1, 0, 0}, Vec3d{0.25, 1, 0}, Vec3d{0, 0, 1}}};
+  const PeriodicSet set({Vec3d{0.5, 0.5, 0.5}, Vec3d{0.125, 0, 0}}, {0.05, 0.125}, cell);
+  Ray ray;
+  ray.origin = {-1000, -1000, 0};
+  ray.direction = {1, 1, 0};
+  ray.t_min = 900;
+  const Hit hit = set.closest(ray);
+  ScaledRay scaled(ray, set.spheres.scale());
+  double expected = kInf;
+  for (int i = -400; i < 200; ++i)
+    for (int j = -110; j < 10; ++j)
+      for (const std::int64_t id : {0, 1}) {
+        const Vec3d shift = (double(i) * cell.vectors[0] + double(j) * cell.vectors[1]) * set.spheres.scale();
+        expected = std::min(expected,
+                            sphere_hit(scaled, set.spheres.stored_centre(id) + shift, set.spheres.stored_radius(id)));
+      }
+  EXPECT_EQ(hit.t, expected);
+  EXPECT_TRUE(hit.found());
+}
+
+TEST(PeriodicRays, ARayLeavesTheImageThatItStartsOn) {
+  // One sphere in a cube: a ray from its surface goes to the next image, not to itself.
+  const Cell cell{{}, {Vec3d{4, 0, 0}, Vec3d{0, 4, 0}, Vec3d{0, 0, 4}}};
+  const PeriodicSet set({Vec3d{1, 1, 1}}, {1}, cell);
+  for (const float image : {0.0F, 12.0F, -400.0F}) {
+    Ray ray;
+    ray.origin = {2 + image, 1, 1};
+    ray.direction = {1, 0, 0};
+    ray.leaves = 0;
+    EXPECT_EQ(set.closest(ray).t, 2);
+    ray.direction = {-1, 0, 0};
+    ray.inside = true;
+    EXPECT_EQ(set.closest(ray).t, 2);  // the far side
+    ray.direction = {1, 0, 0};
+    EXPECT_EQ(set.closest(ray).t, 0);  // it ends where it begins
+  }
+}
+
+TEST(PeriodicRays, ThoseWithoutAnEndAreTold) {
+  const Cell cell{{}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
+  const PeriodicSet set({Vec3d{0.5, 0.5, 0.5}}, {0.1}, cell);
+  RayBatch rays;
+  Ray ray;
+  ray.origin = {0.5, 0.5, 0.5};
+  ray.direction = {1, 0, 0};
+  rays.push_back(ray);
+  ray.origin = {0, 0, 0};  // in a channel
+  rays.push_back(ray);
+  double t[2];
+  std::int64_t ids[2];
+  std::uint8_t hidden[2];
+  std::vector<RayHit> hits;
+  EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), 1);
+  EXPECT_EQ(ids[0], 0);
+  EXPECT_EQ(set.images->occluded(*set.tree, rays.span(), hidden), 1);
+  EXPECT_EQ(set.images->all_hits(*set.tree, rays.span(), hits), 0);  // it meets one image after the other
+  EXPECT_NE(PeriodicImages::ray_without_end(1).message.find("ray 1"), std::string::npos);
+  rays.t_max = {3, 1000};
+  EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), kNothing);
+  EXPECT_EQ(ids[1], kNothing);
+  EXPECT_EQ(set.images->all_hits(*set.tree, rays.span(), hits), kNothing);
+  EXPECT_EQ(hits.size(), 4U);  // where it starts, and three more
+  rays.t_max = {3, 1e9};
+  EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), 1);
+  rays.t_max = {3, 1};
+  rays.t_min = {-kInf, 0};
+  EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), 0);
+  rays.t_min.clear();
+  rays.origin[0] = {1e30F, 0};  // no number tells its cell
+  EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), 0);
+  rays.direction[0] = {0, 0};  // invalid rays hit nothing
+  EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), kNothing);
+}
+
+TEST(PeriodicRays, ASlabAndAChainEnd) {
+  const PeriodicSet slab({Vec3d{0.5, 0.5, 0.5}}, {0.1},
+                         {{}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}, {true, true, false}});
+  const PeriodicSet chain({Vec3d{0.5, 0.5, 0.5}}, {0.1}, {{}, {Vec3d{1, 0, 0}, Vec3d{}, Vec3d{}}});
+  Ray ray;
+  ray.origin = {0, 0, 1000};
+  ray.direction = {0, 0, -1};
+  EXPECT_FALSE(slab.closest(ray).found());
+  EXPECT_FALSE(chain.closest(ray).found());
+  ray.direction = {0.5F, 0.5F, -999.5F};
+  EXPECT_EQ(slab.closest(ray).sphere_id, 0);
+  ray.direction = {17.5F, 3.5F, -999.5F};
+  EXPECT_EQ(slab.closest(ray).sphere_id, 0);
+  EXPECT_FALSE(chain.closest(ray).found());
+  ray.direction = {17.5F, 0.5F, -999.5F};
+  EXPECT_EQ(chain.closest(ray).sphere_id, 0);
+}
+
+TEST(PeriodicRays, SpheresAllOverAreRefused) {
+  const Cell cell{{}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
+  EXPECT_TRUE(PeriodicSet({Vec3d{}, Vec3d{9, 3, 0}}, {0.1, 0.1}, cell).images->check_rays());
+  EXPECT_FALSE(PeriodicSet({Vec3d{}, Vec3d{99, 99, 0}}, {0.1, 0.1}, cell).images->check_rays());
+  EXPECT_FALSE(PeriodicSet({Vec3d{}}, {30}, cell).images->check_rays());
+}
+
+}  // namespace
+}  // namespace bihive
