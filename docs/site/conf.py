@@ -22,7 +22,7 @@ suppress_warnings = ["myst.header"]  # a page may begin with a second-level head
 
 # The pages; everything else of the project is left alone.
 PAGES = ["README.md", "HACKING.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "data/README.md", "bench/README.md", "web/viewer/README.md", "src/bihive/wide/README.md"]
-include_patterns = [*PAGES, "docs/*.md", "docs/decisions/*.md", "docs/gallery/README.md", "docs/cookbook/README.md", "docs/thesis/README.md"]
+include_patterns = [*PAGES, "docs/*.md", "docs/decisions/*.md", "docs/gallery/README.md", "docs/cookbook/README.md", "docs/thesis/README.md", "thesis/README.md"]
 include_patterns += ["docs/tutorial/*.md", "docs/site/*.md", "docs/site/*.rst"]
 
 # The reference of Python comes from the built package's docstrings, where scripts/docs found one.

@@ -30,7 +30,7 @@ class Convert(ProgramTest):
     def test_formats_by_ending_and_by_option(self):
         self.assertEqual(
             self.succeed("convert", "a.pdb", "-o", "a.xyz"),
-            "a.xyz: 3 spheres as XYZ, 55 bytes\n  not as it was: radius, occupancy, b_factor, resid, record, chain, "
+            "a.xyz: 3 spheres as XYZ, 55 bytes\n  not as it was: radius, occupancy, b_factor, resid, serial, record, chain, "
             "resname, name: plain XYZ holds symbols and places alone; extended XYZ (.extxyz) holds them\n",
         )
         self.assertEqual(self.read("a.xyz"), b"3\n\nN 11.104 6.134 -6.504\nC 12.1 6.2 -6.5\nZn 10.125 0 3\n")

@@ -55,6 +55,23 @@ class Looks(ProgramTest):
         last_blue = self.middles("--select", "part left", "--colour", "red", "--select", "all", "--colour", "blue")
         self.assertTrue(all(pixel[2] > 100 and pixel[0] < 60 for pixel in last_blue), last_blue)
 
+    def test_a_colour_map_of_own_colours(self):
+        own = self.middles("--colour-by", "charge:blue-white-red:-1,5")
+        self.write("map.txt", "# mine\n0 0 255\n255 255 255\n255 0 0\n")
+        self.assertEqual(self.middles("--colour-by", "charge:map.txt:-1,5"), own)
+        self.write("s.json", json.dumps({
+            "bihive_scene": 2, "spheres": {"file": "a.csv"},
+            "looks": [{"colour_by": {"attribute": "charge", "map": ["blue", "white", "#ff0000"], "range": [-1, 5]}}]}))
+        self.assertEqual(self.middles(name="s.json"), own)
+        self.assertTrue(own[0][2] > 100 > own[0][0] and own[2][0] > 100 > own[2][2], own)
+        self.write("bad.txt", "0 0 1\n0 0\n")
+        for value, message in [("charge:bad.txt", "bad.txt:2: expected a colour but found '0 0'; a line is #rrggbb"),
+                               ("charge:none.txt", "none.txt"), ("charge:blue-wihte", "there is no colour map \"blue-wihte\"")]:
+            self.assertIn(message, self.fail_with(2, "render", "a.csv", "-o", "b.png", "--colour-by", value))
+        # A file that is read is not overwritten.
+        self.assertIn("map.txt", self.fail_input("render", "a.csv", "-o", "map.txt", "--colour-by", "charge:map.txt"))
+        self.assertIn(b"mine", self.read("map.txt"))
+
     def test_colour_by_a_number(self):
         left, middle, right = self.middles("--colour-by", "charge:coolwarm:-1,5", "--nan-colour", "#00ff00")
         self.assertGreater(left[2], left[0])

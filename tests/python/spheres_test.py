@@ -2,7 +2,9 @@
 
 import array
 import copy
+import pathlib
 import pickle
+import tempfile
 import unittest
 
 import bihive as bh
@@ -221,6 +223,22 @@ class ColourMap(unittest.TestCase):
         np.testing.assert_array_equal(colours[3], [1, 0, 0])
         self.assertEqual(colours.dtype, np.float32)
         self.assertLess(colours[0].sum(), colours[1].sum())
+
+    def test_own_colours(self):
+        values = [0.0, 0.5, 1.0]
+        colours = bh.colour_map(values, ["black", "#0000ff", "red"])
+        np.testing.assert_array_equal(colours, [[0, 0, 0], [0, 0, 1], [1, 0, 0]])
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "map.txt")
+            path.write_text("0 0 0\n0 0 1\n1 0 0\n")
+            for name in (path, str(path)):
+                np.testing.assert_array_equal(bh.colour_map(values, name), colours)
+            path.write_text("0 0 0\n0 0\n")
+            with self.assertRaisesRegex(bh.InputError, "map.txt:2: expected a colour"):
+                bh.colour_map(values, path)
+        for wrong in (["red"], ["red"] * 1025, ["red", "rde"], ["red", 1], 5):
+            with self.assertRaisesRegex(bh.UsageError, "map"):
+                bh.colour_map(values, wrong)
 
     def test_categories(self):
         colours = bh.colour_map(["a", "b", "a"])

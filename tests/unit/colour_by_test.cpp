@@ -47,7 +47,7 @@ std::vector<Vec3f> coloured(const std::string& text, Transfer transfer = Transfe
 // Colours that the authors of the maps publish.
 TEST(ColourMaps, HaveTheirPublishedColours) {
   const struct {
-    ColourMap map;
+    ColourMap::Name map;
     double share;
     std::uint32_t colour;
   } cases[] = {
@@ -64,7 +64,7 @@ TEST(ColourMaps, HaveTheirPublishedColours) {
 }
 
 TEST(ColourMaps, LightnessRises) {
-  for (const ColourMap map : {ColourMap::viridis, ColourMap::magma, ColourMap::cividis}) {
+  for (const ColourMap::Name map : {ColourMap::viridis, ColourMap::magma, ColourMap::cividis}) {
     double before = -1;
     for (int i = 0; i <= 100; ++i) {
       const Vec3f c = map_colour(map, i / 100.0, Transfer::srgb);
@@ -73,6 +73,55 @@ TEST(ColourMaps, LightnessRises) {
       before = luminance;
     }
   }
+}
+
+TEST(ColourMaps, AreOfOwnColoursToo) {
+  const ColourMap map = colour_map_from("blue-white-#ff8000").value();
+  EXPECT_EQ(map.colours, (std::vector<std::uint32_t>{0x0000FF, 0xFFFFFF, 0xFF8000}));
+  EXPECT_EQ(text_of_colours(map.colours), "#0000ff-#ffffff-#ff8000");
+  for (const Transfer transfer : {Transfer::srgb, Transfer::none}) {
+    EXPECT_EQ(on_screen(map_colour(map, 0.5, transfer), transfer), 0xFFFFFFU);
+    EXPECT_EQ(on_screen(map_colour(map, 0.75, transfer), transfer), 0xFFBF80U);
+    EXPECT_EQ(on_screen(map_colour(reversed(map), 0.25, transfer), transfer), 0xFFBF80U);
+  }
+  EXPECT_EQ(coloured("heat:blue-white-#ff8000:100,-5"), coloured("heat:#ff8000-white-blue:-5,100"));
+  for (const char* wrong : {"blue", "blue-", "-blue", "blue--white", "blue-wihte", "blue-white_r"})
+    EXPECT_FALSE(colour_map_from(wrong)) << wrong;
+  std::string many = "red";
+  for (std::size_t i = 1; i < kMostMapColours; ++i) many += "-red";
+  EXPECT_TRUE(colour_map_from(many));
+  EXPECT_FALSE(colour_map_from(many + "-red"));
+}
+
+TEST(ColourMaps, AreReadFromFiles) {
+  using Colours = std::vector<std::uint32_t>;
+  EXPECT_EQ(read_colour_map("# of my own\n#0000ff\n\nwhite\n#FF8000", "m").value(),
+            (Colours{0x0000FF, 0xFFFFFF, 0xFF8000}));
+  EXPECT_EQ(read_colour_map("0 0 1\n1, 1,1\n1,0.5,0\n", "m").value(), (Colours{0x0000FF, 0xFFFFFF, 0xFF8000}));
+  EXPECT_EQ(read_colour_map("0 0 1\nred\n255\t128 0\n", "m").value(), (Colours{0x000001, 0xFF0000, 0xFF8000}));
+  for (const auto& [text, message] : {std::pair{"", "m: a colour map has at least two colours"},
+                                      {"red\n", "m: a colour map has at least two colours"},
+                                      {"red\n1 2\n", "m:2: expected a colour but found '1 2'"},
+                                      {"red\n1 2 256\n", "m:2: expected a colour"},
+                                      {"red\n1 -2 25\n", "m:2: expected a colour"},
+                                      {"red\n1 2 3 4\n", "m:2: expected a colour"},
+                                      {"rde\n1 2 3\n", "m:1: expected a colour but found 'rde'"}}) {
+    const auto colours = read_colour_map(text, "m");
+    ASSERT_FALSE(colours.ok()) << text;
+    EXPECT_THAT(colours.error().to_string(), HasSubstr(message));
+  }
+  EXPECT_FALSE(read_colour_map(std::string(5000, '\n').insert(0, "1 1 1") + "1 1 1\n1 x 1", "m").ok());
+  std::string many;
+  for (std::size_t i = 0; i <= kMostMapColours; ++i) many += "1 1 1\n";
+  EXPECT_THAT(read_colour_map(many, "m").error().to_string(), HasSubstr("m:1025: a colour map has at most 1024"));
+
+  EXPECT_EQ(colour_map_file("heat:maps/a.txt:0,1"), "maps/a.txt");
+  EXPECT_EQ(colour_map_file("heat:a.txt"), "a.txt");
+  for (const char* none :
+       {"heat", "heat:magma", "heat:0.5,1.5", "heat:mid=0.5", "heat:log", "a.b:jet", "heat:red-blue"})
+    EXPECT_EQ(colour_map_file(none), "") << none;
+  EXPECT_EQ(with_map("heat:a.txt:0,1", {0xFF, 0xFFFFFF}), "heat:#0000ff-#ffffff:0,1");
+  EXPECT_EQ(with_map("heat:a.txt", {0xFF, 0xFFFFFF}), "heat:#0000ff-#ffffff");
 }
 
 TEST(ColourBy, AFiniteRangeIsTheDefault) {

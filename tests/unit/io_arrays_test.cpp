@@ -110,10 +110,12 @@ TEST(H5md, TakesAll) {
   EXPECT_EQ(file.time_ps, 2.5);
   ASSERT_TRUE(file.spheres.cell().has_value());
   EXPECT_EQ(file.spheres.cell()->vectors[2], (Vec3d{0, 0, 50}));
+  EXPECT_EQ(file.spheres.cell()->periodic, (std::array<bool, 3>{true, false, true}));
   EXPECT_EQ(numbers_of(file, "mass"), (std::vector<double>{16, 1, 1}));
   EXPECT_EQ(numbers_of(file, "vy"), (std::vector<double>{1, 2.75, 4}));
   // The first group in the order of names.
   EXPECT_EQ(file_at(in_data("water.h5md")).step, 100);
+  EXPECT_EQ(file_at(in_data("water.h5md")).spheres.cell()->periodic, (std::array<bool, 3>{false, true, true}));
   EXPECT_EQ(file_at(in_data("water.h5md") + ":/particles/steps", 1).step, 105);
   EXPECT_THAT(fault_at(path, 2), HasSubstr("there is no frame 2"));
 }

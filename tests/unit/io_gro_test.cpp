@@ -36,6 +36,7 @@ TEST(Gro, TakesFixedColumnsAsAngstrom) {
   EXPECT_EQ(*file.step, 300);
   EXPECT_EQ(numbers_of(file, "vy"), (std::vector<double>{-0.058, 0.3191, -2.6469}));
   EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{1, 1, 2}));
+  EXPECT_EQ(numbers_of(file, "serial"), (std::vector<double>{1, 2, 3}));
   ASSERT_TRUE(file.spheres.cell().has_value());
   EXPECT_NEAR(file.spheres.cell()->vectors[2].z, 18.206, 1e-12);
 }

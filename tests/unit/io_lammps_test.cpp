@@ -69,6 +69,21 @@ TEST(LammpsDump, TakesTheTiltOutOfTriclinicBounds) {
   EXPECT_EQ(file.spheres.centre(4), (Vec3d{4.5, 4.5, 3}));
 }
 
+TEST(LammpsDump, TakesAlongWhichVectorsTheBoxIsPeriodic) {
+  const auto flags = [](const std::string& words) {
+    const std::string numbers =
+        words.find("abc") != std::string::npos ? "1 0 0 0\n0 1 0 0\n0 0 1 0\n" : "0 1 0\n0 1 0\n0 1 0\n";
+    return read_text(frame("x y z", "0 0 0\n", 1, "ITEM: BOX BOUNDS" + words + "\n" + numbers), "d")
+        .spheres.cell()
+        ->periodic;
+  };
+  EXPECT_EQ(flags(" pp pp ff"), (std::array<bool, 3>{true, true, false}));
+  EXPECT_EQ(flags(" xy xz yz ss pp fm"), (std::array<bool, 3>{false, true, false}));
+  EXPECT_EQ(flags(" abc origin pp ff pp"), (std::array<bool, 3>{true, false, true}));
+  for (const char* unstated : {"", " xy xz yz", " pp pp", " pp pp nonsense"})
+    EXPECT_EQ(flags(unstated), (std::array<bool, 3>{true, true, true})) << unstated;
+}
+
 TEST(LammpsDump, TakesAGeneralTriclinicBox) {
   const std::string box = "ITEM: BOX BOUNDS abc origin pp pp pp\n1 2 0 5\n0 3 0 6\n0 0 4 7\n";
   const SphereFile file = read_text(frame("xs ys zs", "0.5 0.25 1\n", 1, box), "d");

@@ -431,6 +431,7 @@ TEST(Pdb, LargeNumbersShiftTheColumns) {
   ASSERT_EQ(file.spheres.size(), 4);
   for (std::int64_t id = 0; id < 4; ++id) EXPECT_EQ(file.spheres.centre(id), (Vec3d{10.5, -200.125, 1000.25})) << id;
   EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{9999, 10000, 9999, 123456}));
+  EXPECT_EQ(numbers_of(file, "serial"), (std::vector<double>{99999, 99999, 100000, 1000000}));
   EXPECT_EQ(numbers_of(file, "occupancy"), std::vector<double>(4, 0.5));
   EXPECT_EQ(texts(file, "chain"), Texts(4, "A"));
   EXPECT_EQ(file.spheres.attributes().element, std::vector<std::uint8_t>(4, 8));

@@ -33,7 +33,7 @@ TEST(Pqr, TakesChargesAndRadiiFromColumns) {
   EXPECT_EQ(numbers_of(file, "charge"), (std::vector<double>{0.1592, -0.22, 2}));
   EXPECT_NEAR(file.spheres.centre(2).y, -127.039, 1e-4);
   EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{7, 6, 20}));
-  EXPECT_EQ(number_names(file), (std::vector<std::string>{"resid", "charge"}));
+  EXPECT_EQ(number_names(file), (std::vector<std::string>{"resid", "serial", "charge"}));
   EXPECT_TRUE(file.warnings.empty());
 }
 

@@ -66,25 +66,25 @@ TEST(WriteSpheres, AMoleculeComesBack) {
 
 TEST(WriteSpheres, DecimalsAreShort) {
   EXPECT_EQ(write_spheres(read_text(kPdb, "a.pdb").spheres, SphereFileFormat::csv).bytes,
-            "element,x,y,z,radius,occupancy,b_factor,resid,record,chain,resname,name\n"
-            "N,11.104,6.134,-6.504,1.55,1,20.25,1,ATOM,A,ALA,N\n"
-            "C,12.1,6.2,-6.5,1.7,0.5,21.25,1,ATOM,A,ALA,CA\n"
-            "Zn,10.125,0,3,1.39,0.5,15,2,HETATM,B,ZN,ZN\n");
+            "element,x,y,z,radius,occupancy,b_factor,resid,serial,record,chain,resname,name\n"
+            "N,11.104,6.134,-6.504,1.55,1,20.25,1,1,ATOM,A,ALA,N\n"
+            "C,12.1,6.2,-6.5,1.7,0.5,21.25,1,2,ATOM,A,ALA,CA\n"
+            "Zn,10.125,0,3,1.39,0.5,15,2,3,HETATM,B,ZN,ZN\n");
 }
 
 TEST(WriteSpheres, EachFormatHasItsLayout) {
   const SphereSet spheres = read_text(kPdb, "a.pdb").spheres;
   EXPECT_EQ(write_spheres(spheres, SphereFileFormat::xyz).bytes,
             "3\n\nN 11.104 6.134 -6.504\nC 12.1 6.2 -6.5\nZn 10.125 0 3\n");
-  EXPECT_THAT(
-      write_spheres(spheres, SphereFileFormat::extended_xyz).bytes,
-      HasSubstr("3\nProperties=species:S:1:pos:R:3:radius:R:1:occupancy:R:1:b_factor:R:1:resid:R:1:record:S:1:chain:S:"
-                "1:resname:S:1:name:S:1\nN 11.104 6.134 -6.504 1.55 1 20.25 1 ATOM A ALA N\n"));
+  EXPECT_THAT(write_spheres(spheres, SphereFileFormat::extended_xyz).bytes,
+              HasSubstr("3\nProperties=species:S:1:pos:R:3:radius:R:1:occupancy:R:1:b_factor:R:1:resid:R:1:serial:R:1:"
+                        "record:S:1:chain:S:"
+                        "1:resname:S:1:name:S:1\nN 11.104 6.134 -6.504 1.55 1 20.25 1 1 ATOM A ALA N\n"));
   EXPECT_THAT(
       write_spheres(spheres, SphereFileFormat::ply).bytes,
       HasSubstr("element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float radius\n"
                 "property uchar atomic_number\nproperty double occupancy\nproperty double b_factor\nproperty double "
-                "resid\nend_header\n11.104 6.134 -6.504 1.55 7 1 20.25 1\n"));
+                "resid\nproperty double serial\nend_header\n11.104 6.134 -6.504 1.55 7 1 20.25 1 1\n"));
   const Result<NpyArray> array = parse_npy(write_spheres(spheres, SphereFileFormat::npy).bytes, "a.npy");
   ASSERT_TRUE(array.ok());
   EXPECT_EQ(array->dtype, "<f4");

@@ -20,8 +20,9 @@ Files files_of(const InputOptions& input) {
 // The options shared by commands that draw.
 template <class Options>
 Files files_of_drawing(const Options& options) {
-  return together(
-      {files_of(options.input), {options.style.name, options.looks.element_colours, options.labels.title_values}});
+  return together({files_of(options.input),
+                   {options.style.name, options.looks.element_colours, options.labels.title_values},
+                   options.looks.colour_map_files});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "bihive/scene/colour_by.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/style.h"
 
@@ -43,6 +44,7 @@ std::vector<std::string> picture_words(const CLI::App& command, int argc, const 
 }
 
 bool names_file(const GivenOption& given) {
+  if (given.name == "--colour-by") return !colour_map_file(given.value).empty();
   if (given.option->get_type_name().find("FILE") == std::string::npos) return false;
   if (given.name == "--style") return !style_named(given.value);
   if (given.name == "--element-colours") return !element_colours_called(given.value);

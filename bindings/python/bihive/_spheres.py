@@ -457,7 +457,7 @@ def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
     cannot be used. Warnings of the reader are given as InputWarning.
 
     >>> read("demo")
-    <bihive.Spheres: 1631 spheres from demo (PDB), element, occupancy, b_factor, resid, record, chain, resname, name>
+    <bihive.Spheres: 1631 spheres from demo (PDB), element, occupancy, b_factor, resid, serial, record, chain, resname, name>
     """
     text = check_readable(path)
     core = _bihive.read([*words_of(options, _READING), "--", os.fsencode(text)])
@@ -511,11 +511,25 @@ def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> 
     return made
 
 
-def colour_map(values: Any, map: Optional[str] = None, range: Any = None, log: bool = False, nan_colour: str = "grey") -> Array:
+def _map_text(map: Any) -> str:
+    if isinstance(map, os.PathLike) or (isinstance(map, str) and map not in _MAPS and ("/" in map or "." in map)):
+        return "-".join(_bihive.colour_map_of_file(os.fspath(map)))
+    if not isinstance(map, (list, tuple)):
+        return one_of("map", map, _MAPS)
+    if not 2 <= len(map) <= 1024:
+        raise bad_argument("map", f"expected a name, a file or 2 to 1024 colours, found {len(map)}")
+    for one in map:
+        if "-" in text_of("map", one) or _bihive.linear_colour(one) is None:
+            raise bad_argument("map", f"expected names of colours or '#rrggbb', found {found(one)}")
+    return "-".join(map)
+
+
+def colour_map(values: Any, map: Any = None, range: Any = None, log: bool = False, nan_colour: str = "grey") -> Array:
     """float32 (n, 3) of linear light: the colours that ``--colour-by`` gives these values.
 
-    values: numbers or texts, shape (n,). map: "viridis", "RdBu_r" or another of ``bihive render --help-all``; left out: viridis for
-    numbers, colours by category for texts. range: the two numbers at the ends of the map; left out: those of the values.
+    values: numbers or texts, shape (n,). map: "viridis", "RdBu_r" or another of ``bihive render --help-all``, a list of 2 to 1024
+    colours ("#rrggbb" or names), or the path of a file with a colour on each line; left out: viridis for numbers, colours by
+    category for texts. range: the two numbers at the ends of the map; left out: those of the values.
     log: the map runs along the logarithm. nan_colour: of NaN.
 
     >>> colour_map([0.0, 1.0, 2.0], "viridis", range=(0, 3)).shape
@@ -525,8 +539,7 @@ def colour_map(values: Any, map: Optional[str] = None, range: Any = None, log: b
     if array.ndim != 1:
         raise bad_argument("values", f"expected shape (n,), found shape {array.shape}")
     data: Any = texts("values", array, len(array)) if array.dtype.kind in "USO" else numbers("values", array)
-    if map is not None:
-        one_of("map", map, _MAPS)
+    colours = "" if map is None else _map_text(map)
     log = boolean("log", log)
     if _bihive.linear_colour(text_of("nan_colour", nan_colour)) is None:
         raise bad_argument("nan_colour", f"expected a name or '#rrggbb', found {found(nan_colour)}")
@@ -538,7 +551,7 @@ def colour_map(values: Any, map: Optional[str] = None, range: Any = None, log: b
         if log and pair[0] <= 0:
             raise bad_argument("range", f"of a logarithmic map begins above 0, found {found(range)}")
         ends = f"{float(pair[0])!r},{float(pair[1])!r}"
-    how = [map or "", ends, "log" if log else ""]
+    how = [colours, ends, "log" if log else ""]
     while how and not how[-1]:
         how.pop()
     return _bihive.colours_of(data, "".join(":" + one for one in how), nan_colour)

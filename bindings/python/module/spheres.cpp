@@ -308,6 +308,12 @@ void bind_spheres(py::module_& module) {
   module.def("options", options_of_pictures);
   module.def("actions", look_action_names);
   module.def("colour_maps", colour_map_names);
+  module.def("colour_map_of_file", [](const std::string& path) {
+    std::vector<std::string> colours;
+    for (const std::uint32_t rgb : value_of(read_colour_map(value_of(read_file(path)), path)))
+      colours.push_back(text_of_colours({rgb}));
+    return colours;
+  });
   py::class_<Spheres, std::shared_ptr<Spheres>>(module, "Spheres")
       .def("__len__", [](const Spheres& s) { return s.file.spheres.size(); })
       .def_property_readonly("xyz", centres)

@@ -1,6 +1,7 @@
 // The translations of a periodic cell: which images of a point may lie near another one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -19,6 +20,10 @@ inline ImageCounts operator+(const ImageCounts& a, const ImageCounts& b) {
 }
 inline ImageCounts operator-(const ImageCounts& a, const ImageCounts& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+inline double largest_coordinate(Vec3d p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }
 
 /// All sums of whole multiples of the periodic vectors of a cell, one to three of them, skewed or not.

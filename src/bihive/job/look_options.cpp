@@ -84,7 +84,16 @@ void LookOptions::show(bool shown) {
   words.push_back("--" + name);
 }
 
-Status LookOptions::act(const std::string& name, const std::string& text) {
+Status LookOptions::act(const std::string& name, const std::string& given) {
+  std::string text = given;
+  if (const std::string file = name == "colour-by" ? colour_map_file(given) : ""; !file.empty()) {
+    colour_map_files.push_back(file);
+    const Result<std::string> bytes = read_file(file);
+    if (!bytes) return bytes.error();
+    const Result<std::vector<std::uint32_t>> colours = read_colour_map(*bytes, file);
+    if (!colours) return colours.error();
+    text = with_map(given, *colours);
+  }
   Result<LookAction> action = look_action_from_text(name, text);
   if (!action) return action.error();
   add(std::move(*action), name);

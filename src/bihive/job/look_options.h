@@ -23,6 +23,7 @@ struct LookOptions {
   std::vector<LookRow> rows;                         ///< the same for the window: one action each, as text
   std::string nan_colour;                            ///< empty: the default
   std::string element_colours;                       ///< "cpk", "jmol" or a file; empty: the usual ones
+  std::vector<std::string> colour_map_files;         ///< read for colour_by
   bool selected = false;                             ///< --select was given
 
   /// Fails with kBadUsage on a text that is not a selection, and shows the faulty column.

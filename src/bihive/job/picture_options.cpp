@@ -346,7 +346,7 @@ void add_spheres(Rows& rows) {
        action("colour", "COLOUR", "Colour them: a name, #rrggbb or r,g,b from 0 to 1"),
        action("colour_by", "ATTR[:MAP][:MIN,MAX][:log][:mid=M]",
               "Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed:\n" +
-                  joined(colour_map_names()))});
+                  joined(colour_map_names()) + ",\ncolours such as blue-white-red, or a file of some")});
   Row nan_colour =
       action("nan_colour", "COLOUR", "Colour of unknown numbers in the attribute that gives colours (grey)");
   nan_colour.take = [](PictureRequest& request, const std::string& text) { return request.looks.set_nan_colour(text); };

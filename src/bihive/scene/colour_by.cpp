@@ -39,7 +39,7 @@ bool take_range(const std::string& text, ColourBy& how) {
   if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || *low == *high) return false;
   if (of_percent && (std::min(*low, *high) < 0 || std::max(*low, *high) > 100)) return false;
   (of_percent ? how.percentiles : how.range).emplace(std::min(*low, *high), std::max(*low, *high));
-  if (*low > *high) how.map = reversed(how.map.value_or(ColourMap::viridis));
+  if (*low > *high) how.map = reversed(how.map.value_or(ColourMap()));
   return true;
 }
 
@@ -143,7 +143,7 @@ Result<ColourBy> colour_by_number(const SphereSet& spheres, const ColourBy& how,
   const Result<Vec3f> unknown = linear_colour(how.nan_colour, transfer);
   if (!unknown) return unknown.error();
   ColourBy done = how;
-  done.map = how.map.value_or(ColourMap::viridis);
+  done.map = how.map.value_or(ColourMap());
   if (!done.range) done.range = range_of(spheres, how, attribute, mask).value_or(std::pair{0.0, 1.0});
   if (how.middle) done.range = around(*how.middle, *done.range, how.logarithmic);
   const Scale scale(*done.range, how.logarithmic);
@@ -190,7 +190,7 @@ Vec3f colour_of_number(const ColourBy& done, double number, Transfer transfer) {
   const auto unknown = [&] { return linear_colour(done.nan_colour, transfer).value(); };
   if (!done.range) return number_category_colour(number, transfer).value_or(unknown());
   const double share = Scale(*done.range, done.logarithmic).share(number);
-  return std::isnan(share) ? unknown() : map_colour(done.map.value_or(ColourMap::viridis), share, transfer);
+  return std::isnan(share) ? unknown() : map_colour(done.map.value_or(ColourMap()), share, transfer);
 }
 
 double place_in_range(std::pair<double, double> range, bool logarithmic, double number) {
@@ -203,6 +203,19 @@ Result<Vec3f> linear_colour(const ColourChoice& colour, Transfer transfer) {
   if (const auto known = colour_from_text(text, transfer)) return to_float(*known);
   return colour_by_error("expected a colour, found \"" + text + "\"",
                          "colours are #rrggbb or one of " + std::string(kColourNames));
+}
+
+std::string colour_map_file(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return {};
+  const std::string_view part = text.substr(colon + 1, text.find(':', colon + 1) - colon - 1);
+  const bool is_other = part.find(',') != std::string_view::npos || part.starts_with("mid=") || colour_map_from(part);
+  return is_other || part.find_first_of("./") == std::string_view::npos ? std::string() : std::string(part);
+}
+
+std::string with_map(std::string_view text, const std::vector<std::uint32_t>& colours) {
+  const std::size_t begin = text.find(':') + 1, end = std::min(text.find(':', begin), text.size());
+  return std::string(text.substr(0, begin)) + text_of_colours(colours) + std::string(text.substr(end));
 }
 
 Result<ColourBy> colour_by_from_text(const std::string& text) {
@@ -229,7 +242,8 @@ Result<ColourBy> colour_by_from_text(const std::string& text) {
       if (!how.map) {
         const std::vector<std::string> names = colour_map_names();
         return colour_by_error("there is no colour map \"" + part + "\"",
-                               suggestion(part, names) + ", each but okabe-ito also with _r");
+                               suggestion(part, names) +
+                                   ", each but okabe-ito also with _r; or colours such as blue-white-red, or a file");
       }
     } else {
       return colour_by_error("expected a range MIN,MAX, \"log\" or \"mid=NUMBER\", each once, found \"" + part + "\"");

@@ -31,6 +31,11 @@ struct ColourBy {
   std::optional<double> middle = {};                          ///< the range is widened so that the map's middle is here
 };
 
+/// The file that a text for colour_by_from_text() names in place of a map: what has a dot or slash, and is nothing
+/// else. Empty: none. with_map() is the same text with the file's colours (read_colour_map()).
+std::string colour_map_file(std::string_view text);
+std::string with_map(std::string_view text, const std::vector<std::uint32_t>& colours);
+
 /// "ATTR", then ":MAP", ":MIN,MAX" (numbers, or percentiles such as 2%,98%; MIN above MAX reverses the map), ":log" and
 /// ":mid=NUMBER", each of which may be left out; MAP comes first. An error says what was expected.
 Result<ColourBy> colour_by_from_text(const std::string& text);

@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <utility>
+
+#include "bihive/base/parse_number.h"
+#include "bihive/image/colour_text.h"
+#include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
 namespace {
@@ -54,7 +60,7 @@ constexpr std::uint32_t kGreys[kControls] = {
 // One map: its name, and its control colours; null: of categories.
 struct MapRow {
   std::string_view name;
-  ColourMap map;
+  ColourMap::Name map;
   const std::uint32_t* controls;
 };
 constexpr MapRow kMaps[] = {{"viridis", ColourMap::viridis, kViridis}, {"magma", ColourMap::magma, kMagma},
@@ -63,17 +69,25 @@ constexpr MapRow kMaps[] = {{"viridis", ColourMap::viridis, kViridis}, {"magma",
                             {"greys", ColourMap::greys, kGreys},       {"coolwarm", ColourMap::coolwarm, kCoolwarm},
                             {"RdBu", ColourMap::rd_bu, kRdBu},         {"okabe-ito", ColourMap::okabe_ito, nullptr}};
 
-constexpr int kReversed = 64;  // added to the number of a map
+// The control colours of a map, at equal distances.
+struct Controls {
+  const std::uint32_t* first;
+  int count;
+};
 
-bool is_reversed(ColourMap map) {
-  return static_cast<int>(map) >= kReversed;
+Controls controls_of(const ColourMap& map) {
+  if (map.name == ColourMap::own && map.colours.size() >= 2)
+    return {map.colours.data(), static_cast<int>(map.colours.size())};
+  for (const MapRow& row : kMaps)
+    if (row.map == map.name && row.controls != nullptr) return {row.controls, kControls};
+  return {kViridis, kControls};
 }
 
-const std::uint32_t* controls_of(ColourMap map) {
-  const ColourMap forward = is_reversed(map) ? reversed(map) : map;
-  for (const MapRow& row : kMaps)
-    if (row.map == forward && row.controls != nullptr) return row.controls;
-  return kViridis;
+std::uint32_t bytes_of(Vec3d screen) {
+  std::uint32_t rgb = 0;
+  for (int channel = 0; channel < 3; ++channel)
+    rgb = rgb << 8 | static_cast<std::uint32_t>(std::lround(std::clamp(screen[channel], 0.0, 1.0) * 255));
+  return rgb;
 }
 
 double channel_of(std::uint32_t rgb, int channel) {
@@ -88,24 +102,79 @@ std::vector<std::string> colour_map_names() {
   return names;
 }
 
+std::string text_of_colours(const std::vector<std::uint32_t>& colours) {
+  std::string text;
+  for (const std::uint32_t rgb : colours) {
+    char one[8];
+    std::snprintf(one, sizeof one, "#%06x", static_cast<unsigned>(rgb & 0xFFFFFF));
+    text += (text.empty() ? "" : "-") + std::string(one);
+  }
+  return text;
+}
+
 ColourMap reversed(ColourMap map) {
-  const int number = static_cast<int>(map);
-  return static_cast<ColourMap>(is_reversed(map) ? number - kReversed : number + kReversed);
+  map.is_reversed = !map.is_reversed;
+  return map;
 }
 
 std::optional<ColourMap> colour_map_from(std::string_view name) {
   const bool backwards = name.ends_with("_r");
-  if (backwards) name.remove_suffix(2);
+  const std::string_view forward = backwards ? name.substr(0, name.size() - 2) : name;
   for (const MapRow& row : kMaps)
-    if (row.name == name && !(backwards && row.controls == nullptr)) return backwards ? reversed(row.map) : row.map;
-  return std::nullopt;
+    if (row.name == forward && !(backwards && row.controls == nullptr))
+      return backwards ? reversed(row.map) : ColourMap(row.map);
+  ColourMap own(ColourMap::own);
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('-', begin), name.size());
+    const auto colour = colour_from_text(name.substr(begin, end - begin), Transfer::none);
+    if (!colour || own.colours.size() == kMostMapColours) return std::nullopt;
+    own.colours.push_back(bytes_of(*colour));
+    begin = end + 1;
+  }
+  if (own.colours.size() < 2) return std::nullopt;
+  return own;
 }
 
-Vec3f map_colour(ColourMap map, double share, Transfer transfer) {
-  const std::uint32_t* const controls = controls_of(map);
-  if (is_reversed(map)) share = 1 - share;
-  const double place = std::clamp(share, 0.0, 1.0) * (kControls - 1);
-  const int below = std::min(static_cast<int>(place), kControls - 2);
+Result<std::vector<std::uint32_t>> read_colour_map(std::string_view text, const std::string& file) {
+  constexpr const char* kForm = "a line is #rrggbb, a colour's name, or three numbers from 0 to 1 or to 255";
+  std::vector<std::uint32_t> colours;
+  std::vector<std::pair<std::size_t, Vec3d>> of_numbers;  // and where among the colours
+  double largest = 0;
+  TextScanner scanner(text, file);
+  while (scanner.next_filled_line()) {
+    std::string line(trim(scanner.line()));
+    const auto named = colour_from_text(line, Transfer::none);
+    if (!named && line.front() == '#') continue;
+    if (colours.size() == kMostMapColours)
+      return scanner.line_error("a colour map has at most " + std::to_string(kMostMapColours) + " colours");
+    colours.push_back(named ? bytes_of(*named) : 0);
+    if (named) continue;
+    std::replace(line.begin(), line.end(), ',', ' ');
+    TextScanner fields(line, "");
+    fields.next_line();
+    Vec3d rgb;
+    std::string_view field;
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto number = fields.next_field(field) ? parse_double(field) : std::nullopt;
+      if (!number || !(*number >= 0 && *number <= 255))
+        return scanner.line_error("expected a colour but found " + quote(trim(scanner.line())), kForm);
+      rgb[channel] = *number;
+      largest = std::max(largest, *number);
+    }
+    if (fields.next_field(field))
+      return scanner.line_error("expected a colour but found " + quote(trim(scanner.line())), kForm);
+    of_numbers.emplace_back(colours.size() - 1, rgb);
+  }
+  if (colours.size() < 2) return Error{"a colour map has at least two colours, each on a line", file, 0, 0, kForm};
+  for (const auto& [at, rgb] : of_numbers) colours[at] = bytes_of(largest > 1 ? rgb / 255 : rgb);
+  return colours;
+}
+
+Vec3f map_colour(const ColourMap& map, double share, Transfer transfer) {
+  const auto [controls, count] = controls_of(map);
+  if (map.is_reversed) share = 1 - share;
+  const double place = std::clamp(share, 0.0, 1.0) * (count - 1);
+  const int below = std::min(static_cast<int>(place), count - 2);
   const double weight = place - below;
   Vec3f colour;
   for (int channel = 0; channel < 3; ++channel) {

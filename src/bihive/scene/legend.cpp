@@ -102,7 +102,7 @@ class KeyCollector {
   LegendKey key() const {
     LegendKey key;
     key.title = how_.attribute;
-    if (how_.range) key.scale = {how_.map.value_or(ColourMap::viridis), *how_.range, how_.logarithmic};
+    if (how_.range) key.scale = {how_.map.value_or(ColourMap()), *how_.range, how_.logarithmic};
     for (const auto& [place, entry] : entries_) key.entries.push_back(entry);
     return key;
   }

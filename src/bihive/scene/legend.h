@@ -14,7 +14,7 @@ namespace bihive {
 
 /// A continuous map and its range.
 struct LegendScale {
-  ColourMap map = ColourMap::viridis;
+  ColourMap map;
   std::pair<double, double> range;
   bool logarithmic = false;
 };

@@ -12,17 +12,25 @@ ColourChoice colour_from_json(const nlohmann::json& value) {
   return Vec3d{value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
 }
 
+// The schema has checked the names; not the colours' number, nor that each is one.
+std::optional<ColourMap> colour_map_from_json(const nlohmann::json& value) {
+  if (value.is_string()) return colour_map_from(value.get<std::string>());
+  std::string colours;
+  for (const nlohmann::json& one : value) colours += (colours.empty() ? "" : "-") + one.get<std::string>();
+  return colour_map_from(colours);
+}
+
 }  // namespace
 
 ColourBy colour_by_from_json(const nlohmann::json& value) {
   ColourBy how;
   how.attribute = value.at("attribute").get<std::string>();
-  if (value.contains("map")) how.map = colour_map_from(value.at("map").get<std::string>());
+  if (value.contains("map")) how.map = colour_map_from_json(value.at("map"));
   if (value.contains("range"))
     how.range.emplace(value.at("range").at(0).get<double>(), value.at("range").at(1).get<double>());
   if (how.range && how.range->first > how.range->second) {
     std::swap(how.range->first, how.range->second);
-    how.map = reversed(how.map.value_or(ColourMap::viridis));
+    how.map = reversed(how.map.value_or(ColourMap()));
   }
   if (value.contains("percentiles"))
     how.percentiles.emplace(value.at("percentiles").at(0).get<double>(), value.at("percentiles").at(1).get<double>());

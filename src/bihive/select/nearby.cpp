@@ -28,10 +28,6 @@ double squared_distance_to_box(Vec3d p, Vec3d lo, Vec3d hi) {
   return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
-double largest_of(Vec3d p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
 }  // namespace
 
 NearbyPoints::NearbyPoints(std::vector<Vec3d> points, const std::optional<Lattice>& lattice) : lattice_(lattice) {
@@ -47,7 +43,7 @@ NearbyPoints::NearbyPoints(std::vector<Vec3d> points, const std::optional<Lattic
         lowest_share_[axis] = is_first ? share[axis] : std::min(lowest_share_[axis], share[axis]);
         highest_share_[axis] = is_first ? share[axis] : std::max(highest_share_[axis], share[axis]);
       }
-      largest_ = std::max(largest_, largest_of(point));
+      largest_ = std::max(largest_, largest_coordinate(point));
     }
     points_.push_back({at, static_cast<std::uint32_t>(points_.size())});
   }
@@ -89,7 +85,7 @@ bool NearbyPoints::any_within(Vec3d centre, double distance) const {
   const double searched = std::min(distance, lattice_->covering());
   const ImageCounts own = lattice_->cell_of(centre);
   const Vec3d at = centre - lattice_->shift(own);
-  const double largest = std::max(largest_, largest_of(centre));
+  const double largest = std::max(largest_, largest_coordinate(centre));
   const auto range = lattice_->images_within(searched, at, lowest_share_, highest_share_, largest);
   // Moving into the cell and back rounds coordinates and shifts, each some times; a share of a skewed cell may be
   // condition() times as long as the sum of all.

@@ -107,6 +107,10 @@ void all(A& archive, Fields&... fields) {
 }
 
 template <class A>
+void transfer(A& archive, ColourMap& map) {
+  all(archive, map.name, map.is_reversed, map.colours);
+}
+template <class A>
 void transfer(A& archive, ColourBy& by) {
   all(archive, by.attribute, by.map, by.range, by.logarithmic, by.nan_colour);
 }

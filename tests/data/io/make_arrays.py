@@ -20,6 +20,7 @@ def h5md(path):
         group = file.create_group("particles/water")
         box = group.create_group("box")
         box.attrs["dimension"] = 3
+        box.attrs["boundary"] = ["periodic", "none", "periodic"]  # texts of variable length
         edges = box.create_group("edges")
         edges.create_dataset("value", data=numpy.array([[2, 3, 4], [2, 3, 5]], "f4")).attrs["unit"] = numpy.bytes_("nm")
         edges["step"] = [0, 10]
@@ -36,6 +37,9 @@ def h5md(path):
         velocity["step"] = [0, 10]
         steps = file.create_group("particles/steps/position")
         steps["value"] = PLACES
+        box = file.create_group("particles/steps/box")
+        box.attrs["boundary"] = numpy.array([b"none", b"periodic", b"periodic"])
+        box["edges"] = [1.0, 2.0, 3.0]
         steps["step"] = 5
         steps["step"].attrs["offset"] = 100
 

@@ -26,14 +26,10 @@ constexpr double kScaleForSmall = 0x1p600;
 // A place on the border of a cell and its image on the other side may differ by the file's last digit.
 constexpr double kSamePlace = 0x1p-20;
 
-// At most this many images are tried for one place. Two kinds of places would need more, and would take time without an end:
-// those so far away that rounding leaves them outside the cell, and those without a neighbour in an extremely skewed
-// cell.
+// At most this many images are tried for one place. Two kinds of places would need more, and would take time without an
+// end: those so far away that rounding leaves them outside the cell, and those without a neighbour in an extremely
+// skewed cell.
 constexpr double kMostImages = 4096;
-
-double largest_of(Vec3d p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
 
 double square(Vec3d difference, double scale) {
   const Vec3d scaled = scale * difference;
@@ -84,7 +80,7 @@ double NearestPlace::distance_from(Vec3d from) const {
     search.from = from - lattice_->shift(lattice_->cell_of(from));
     search.best = lattice_->shortest() * lattice_->shortest();
     search.same_place = kSamePlace * kSamePlace * search.best;
-    const double largest = largest_of(search.from) + 2 * lattice_->longest();
+    const double largest = largest_coordinate(search.from) + 2 * lattice_->longest();
     search.pad = 0x1p-48 * lattice_->condition() * largest;
     visit(0, search);
     const auto range =

@@ -15,10 +15,6 @@ namespace {
 // A set that extends farther than this, in cells, is brought into one.
 constexpr double kMostExtent = 2;
 
-double largest_of(Vec3d p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
 }  // namespace
 
 // A point, the tree in which its neighbours are looked up, and the image of the point in that tree's cell.
@@ -57,7 +53,7 @@ Result<std::optional<PeriodicImages>> PeriodicImages::of(const SphereSet& sphere
   made.lo_ = made.hi_ = spheres.stored_centre(0);
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     const Vec3d centre = spheres.stored_centre(id);
-    made.largest_ = std::max(made.largest_, largest_of(centre));
+    made.largest_ = std::max(made.largest_, largest_coordinate(centre));
     made.largest_radius_ = std::max(made.largest_radius_, spheres.stored_radius(id));
     for (int axis = 0; axis < 3; ++axis) {
       made.lo_[axis] = std::min(made.lo_[axis], centre[axis]);
@@ -107,7 +103,7 @@ PeriodicImages::Place PeriodicImages::place_of(const WideTree& tree, const wide:
     cell[k] += static_cast<std::int64_t>(std::floor(share[axis] - double(cell[k]) - lowest_share_[axis]));
   }
   const Vec3d in_cell = point - lattice_.shift(cell);
-  const double largest = std::max(largest_of(point), largest_);
+  const double largest = std::max(largest_coordinate(point), largest_);
   if (!in_cell_) return {question, tree, cell, in_cell, largest, point, 1, false, is_far};
   return {question, *in_cell_, cell, in_cell, largest, in_cell * in_cell_->scale, in_cell_->scale, true, is_far};
 }

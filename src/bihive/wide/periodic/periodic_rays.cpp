@@ -26,10 +26,6 @@ constexpr double kFarthestStart = 0x1p30;
 
 constexpr double kMostOverlapping = 4096;
 
-double largest_of(Vec3d p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
 // The part of a vector at right angles to those along which the lattice extends.
 Vec3d across(const Lattice& lattice, Vec3d vector) {
   Vec3d along[3];
@@ -88,7 +84,7 @@ void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
   const auto i = static_cast<std::size_t>(ray.leaves);
   const Vec3d own{double(x_[i]), double(y_[i]), double(z_[i])};
   const double radius = double(r_[i]);
-  const double largest = std::max(largest_of(scaled.origin), largest_);
+  const double largest = std::max(largest_coordinate(scaled.origin), largest_);
   const Vec3d share = lattice_.shares(own);
   // From everywhere some image's centre is this near, and its surface at most as far.
   const double reach = 2 * (radius + lattice_.covering());
@@ -110,7 +106,7 @@ Interval PeriodicImages::near_spheres(const ScaledRay& ray) const {
   Interval part{ray.t_min, ray.t_max};
   const Vec3d middle = 0.5 * (lo_ + hi_);
   const double reach =
-      (length(hi_ - lo_) + largest_radius_) * (1 + 0x1p-20) + 0x1p-40 * (largest_of(ray.origin) + largest_);
+      (length(hi_ - lo_) + largest_radius_) * (1 + 0x1p-20) + 0x1p-40 * (largest_coordinate(ray.origin) + largest_);
   const Vec3d from = across(lattice_, ray.origin - middle);
   const Vec3d by = across(lattice_, ray.direction);
   const double c = dot(from, from) - reach * reach;
@@ -129,7 +125,7 @@ Interval PeriodicImages::near_spheres(const ScaledRay& ray) const {
 // the rounding of shares, and below half of that of Lattice::images_within(), which finds the images.
 Interval PeriodicImages::in_image(const ScaledRay& ray, Vec3d share, Vec3d speed, const ImageCounts& counts) const {
   Interval part{-kInfinity, kInfinity};
-  const double largest = largest_of(ray.origin) + largest_;
+  const double largest = largest_coordinate(ray.origin) + largest_;
   for (std::size_t k = 0; k < 3; ++k) {
     const double unit = lattice_.share_of_length(k);
     if (unit == 0) continue;
@@ -157,7 +153,7 @@ void PeriodicImages::trace_image(const WideTree& tree, const ScaledRay& ray, con
   const Vec3d shift = lattice_.shift(counts);
   ScaledRay in_tree = ray;
   in_tree.origin = ray.origin - shift;
-  const Slabs slabs(in_tree, 0x1p-46 * (largest_of(ray.origin) + largest_of(shift)));
+  const Slabs slabs(in_tree, 0x1p-46 * (largest_coordinate(ray.origin) + largest_coordinate(shift)));
   ImageTest<Answer> test{tree, ray, shift, answer};
   walk_leaves(tree, slabs, ray.t_min, ray.t_max, test);
 }
@@ -171,11 +167,11 @@ bool PeriodicImages::trace(const WideTree& tree, const Ray& ray, bool is_stored_
   if (part.empty()) return true;
   const Vec3d share = lattice_.shares(scaled.origin);
   const Vec3d speed = lattice_.shares(scaled.direction);
-  if (largest_of(share) > kFarthestStart || part.t_near == -kInfinity) return false;
+  if (largest_coordinate(share) > kFarthestStart || part.t_near == -kInfinity) return false;
   set_left_image(ray, scaled);
 
   // Windows along the ray.
-  const double fastest = largest_of(speed);
+  const double fastest = largest_coordinate(speed);
   const double step = fastest > 0 ? 1 / fastest : kInfinity;
   if (Answer::kNeedsEnd && !((part.t_far - part.t_near) / step <= kMostCells)) return false;
   struct Entry {
@@ -190,7 +186,8 @@ bool PeriodicImages::trace(const WideTree& tree, const Ray& ray, bool is_stored_
     const bool is_last = end == part.t_far;
     const Vec3d from = scaled.origin + begin * scaled.direction;
     const Vec3d to = scaled.origin + end * scaled.direction;
-    const double largest = std::max({largest_of(scaled.origin), largest_of(from), largest_of(to), largest_});
+    const double largest =
+        std::max({largest_coordinate(scaled.origin), largest_coordinate(from), largest_coordinate(to), largest_});
     entries.clear();
     any_image(lattice_.images_within(largest_radius_, from, to, lowest_own_, highest_own_, largest),
               [&](const ImageCounts& counts) {

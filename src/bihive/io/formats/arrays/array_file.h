@@ -45,6 +45,10 @@ class ArrayFile {
                                            const std::vector<std::int64_t>& lengths) const = 0;
   /// An attribute of an array or a group, or of the file ("/"), that is a text or one number; nothing if there is none.
   virtual std::optional<std::string> text(const std::string& object, const std::string& attribute) const = 0;
+  /// An attribute that is one text or an array of some; often none.
+  virtual std::vector<std::string> texts(const std::string& /*object*/, const std::string& /*attribute*/) const {
+    return {};
+  }
   virtual std::optional<double> number(const std::string& object, const std::string& attribute) const = 0;
   /// The names that stand for numbers in an array; often none.
   virtual std::vector<std::pair<double, std::string>> labels(const ArrayFacts&) const { return {}; }

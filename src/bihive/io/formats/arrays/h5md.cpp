@@ -99,6 +99,8 @@ Result<ParticleLayout> h5md_layout(const ArrayFile& file, const std::string& wan
   if (layout.edges) {
     const std::optional<std::string> unit = unit_of(file, layout.edges);
     layout.edges.unit = unit ? angstrom_of(unit) : layout.places.unit;
+    const std::vector<std::string> boundary = file.texts(group + "/box", "boundary");
+    for (std::size_t k = 0; boundary.size() == 3 && k < 3; ++k) layout.periodic[k] = boundary[k] != "none";
   }
   take_steps(file, position, layout);
 

@@ -22,6 +22,7 @@ constexpr int kMostGroupsInGroups = 12;
 constexpr std::size_t kMostObjects = 20000;
 constexpr int kMostDimensions = 8;
 constexpr std::size_t kMostTextBytes = 4096;
+constexpr hssize_t kMostTexts = 16;
 
 // The flag H5F_ACC_RDONLY and the number H5P_DEFAULT: the macros call the library.
 constexpr unsigned kHdf5ReadOnly = 0;
@@ -113,28 +114,38 @@ class Hdf5File : public ArrayFile {
   }
 
   std::optional<std::string> text(const std::string& object, const std::string& attribute) const override {
-    std::optional<std::string> found;
-    with_attribute(object, attribute, [&](hid_t id, hid_t type) {
+    std::vector<std::string> found = texts(object, attribute);
+    return found.size() == 1 ? std::optional(std::move(found.front())) : std::nullopt;
+  }
+
+  std::vector<std::string> texts(const std::string& object, const std::string& attribute) const override {
+    std::vector<std::string> found;
+    with_attribute(object, attribute, kMostTexts, [&](hid_t id, hid_t type, std::size_t count) {
       if (h_.H5Tget_class(type) != H5T_STRING) return;
       if (h_.H5Tis_variable_str(type) > 0) {
-        char* bytes = nullptr;
-        if (h_.H5Aread(id, type, &bytes) < 0 || bytes == nullptr) return;
-        found = std::string(bytes);
-        h_.H5free_memory(bytes);
+        std::vector<char*> bytes(count, nullptr);
+        if (h_.H5Aread(id, type, bytes.data()) < 0) return;
+        for (char* const one : bytes) {
+          if (one != nullptr) found.emplace_back(one);
+          if (one != nullptr) h_.H5free_memory(one);
+        }
         return;
       }
       const std::size_t size = h_.H5Tget_size(type);
       if (size == 0 || size > kMostTextBytes) return;
-      std::string bytes(size, '\0');
+      std::string bytes(size * count, '\0');
       if (h_.H5Aread(id, type, bytes.data()) < 0) return;
-      found = std::string(trim(bytes.substr(0, bytes.find('\0'))));
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::string one = bytes.substr(i * size, size);
+        found.emplace_back(trim(one.substr(0, one.find('\0'))));
+      }
     });
     return found;
   }
 
   std::optional<double> number(const std::string& object, const std::string& attribute) const override {
     std::optional<double> found;
-    with_attribute(object, attribute, [&](hid_t id, hid_t type) {
+    with_attribute(object, attribute, 1, [&](hid_t id, hid_t type, std::size_t) {
       const H5T_class_t kind = h_.H5Tget_class(type);
       double value = 0;
       if ((kind == H5T_INTEGER || kind == H5T_FLOAT) && h_.H5Aread(id, h_.native_double, &value) >= 0) found = value;
@@ -228,9 +239,9 @@ class Hdf5File : public ArrayFile {
     arrays_.push_back(std::move(facts));
   }
 
-  // Calls `take_it` with an attribute of one value and its type, if there is such a one.
-  void with_attribute(const std::string& object, const std::string& attribute,
-                      const std::function<void(hid_t, hid_t)>& take_it) const {
+  // Calls `take_it` with an attribute of 1 to `most` values, its type and their number, if there is such a one.
+  void with_attribute(const std::string& object, const std::string& attribute, hssize_t most,
+                      const std::function<void(hid_t, hid_t, std::size_t)>& take_it) const {
     const Hdf5Turn turn(h_);
     const Handle owner(h_.H5Oopen(id_, object.c_str(), links_), h_.H5Oclose);
     if (!owner.ok() || h_.H5Aexists(owner.id(), attribute.c_str()) <= 0) return;
@@ -238,7 +249,9 @@ class Hdf5File : public ArrayFile {
     if (!found.ok()) return;
     const Handle type(h_.H5Aget_type(found.id()), h_.H5Tclose);
     const Handle space(h_.H5Aget_space(found.id()), h_.H5Sclose);
-    if (type.ok() && space.ok() && h_.H5Sget_simple_extent_npoints(space.id()) == 1) take_it(found.id(), type.id());
+    if (!type.ok() || !space.ok()) return;
+    const hssize_t count = h_.H5Sget_simple_extent_npoints(space.id());
+    if (count >= 1 && count <= most) take_it(found.id(), type.id(), static_cast<std::size_t>(count));
   }
 
   const Hdf5Functions& h_;

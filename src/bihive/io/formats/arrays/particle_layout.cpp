@@ -74,6 +74,7 @@ Status take_cell_of(const ArrayFile& file, const ParticleLayout& layout, std::in
     return Done{};
   }
   if (!cell) target.warnings.push_back(unreadable_cell(frame));
+  if (cell) cell->periodic = layout.periodic;
   if (cell && layout.corner) {
     const Result<std::vector<double>> corner = numbers_at(file, layout.corner, frame);
     if (!corner) return corner.error();

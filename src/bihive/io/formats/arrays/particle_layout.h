@@ -1,6 +1,7 @@
 // Which arrays of a file hold the places, cells and numbers of particles.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,6 +42,7 @@ struct ParticleLayout {
   std::vector<ParticleColumn> columns;
   // The cell: three lengths or vectors as rows; or lengths and angles. Its corner is 0 where none is stated.
   FramedArray edges, lengths, angles, corner;
+  std::array<bool, 3> periodic{true, true, true};  ///< Cell::periodic
   FramedArray time_ps, step;
   std::optional<double> first_step, steps_apart, first_time_ps, time_apart_ps;  ///< in place of arrays
   std::vector<std::string> rules, warnings;

@@ -1,5 +1,6 @@
 #include "bihive/io/formats/molecules/atom_columns.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -9,7 +10,7 @@
 namespace bihive {
 namespace {
 
-double residue_number_from(std::string_view text) {
+double whole_number_from(std::string_view text) {
   const auto number = parse_int(text);
   return number ? static_cast<double>(*number) : std::numeric_limits<double>::quiet_NaN();
 }
@@ -19,7 +20,9 @@ double residue_number_from(std::string_view text) {
 void AtomColumns::add(const AtomNames& names, double occupancy, double b_factor) {
   occupancy_.values.push_back(occupancy);
   b_factor_.values.push_back(b_factor);
-  residue_number_.values.push_back(residue_number_from(names.residue_number));
+  residue_number_.values.push_back(whole_number_from(names.residue_number));
+  serial_.values.push_back(whole_number_from(names.serial));
+  has_serials_ = has_serials_ || !std::isnan(serial_.values.back());
   record_.add(names.record);
   chain_.add(names.chain);
   residue_.add(names.residue);
@@ -31,6 +34,7 @@ void AtomColumns::add(const AtomNames& names, double occupancy, double b_factor)
 void AtomColumns::take(SphereAttributes& attributes) {
   for (NamedNumbers* numbers : {&occupancy_, &b_factor_, &residue_number_})
     attributes.numbers.push_back(std::move(*numbers));
+  if (has_serials_) attributes.numbers.push_back(std::move(serial_));
   attributes.texts.push_back(printable_texts(record_.take("record")));
   attributes.texts.push_back(printable_texts(chain_.take("chain")));
   attributes.texts.push_back(printable_texts(residue_.take("resname")));

@@ -117,6 +117,7 @@ class GroReader {
 
     AtomNames names;
     names.record = "ATOM";
+    names.serial = trim(line.substr(15, 5));
     names.residue_number = trim(line.substr(0, 5));
     names.residue = trim(line.substr(5, 5));
     names.name = trim(line.substr(10, 5));

@@ -133,6 +133,8 @@ class LammpsReader {
 
   // Three lines of numbers. Orthogonal: lo hi. Triclinic (xy xz yz): lo hi tilt, where lo and hi are those of the box
   // around the tilted one. General triclinic (abc origin): an edge and a coordinate of the origin.
+  //
+  // The line of the item ends in two letters for each direction: p p if it is periodic. Without them all are.
   Status read_box(std::string_view item) {
     const bool general = item.find("abc origin") != std::string_view::npos;
     const bool tilted = item.find("xy xz yz") != std::string_view::npos;
@@ -151,9 +153,9 @@ class LammpsReader {
       }
     }
     if (general) {
-      box_ =
-          Box{{v[0][3], v[1][3], v[2][3]},
-              {Vec3d{v[0][0], v[0][1], v[0][2]}, Vec3d{v[1][0], v[1][1], v[1][2]}, Vec3d{v[2][0], v[2][1], v[2][2]}}};
+      box_ = Box{{v[0][3], v[1][3], v[2][3]},
+                 {Vec3d{v[0][0], v[0][1], v[0][2]}, Vec3d{v[1][0], v[1][1], v[1][2]}, Vec3d{v[2][0], v[2][1], v[2][2]}},
+                 periodic_of(item)};
       return Done{};
     }
     // Remove the tilt from the bounds [LAMMPS-triclinic].
@@ -163,8 +165,25 @@ class LammpsReader {
     const double ylo = v[1][0] - std::min(0.0, yz);
     const double yhi = v[1][1] - std::max(0.0, yz);
     const double zlo = v[2][0], zhi = v[2][1];
-    box_ = Box{{xlo, ylo, zlo}, {Vec3d{xhi - xlo, 0, 0}, Vec3d{xy, yhi - ylo, 0}, Vec3d{xz, yz, zhi - zlo}}};
+    box_ = Box{{xlo, ylo, zlo},
+               {Vec3d{xhi - xlo, 0, 0}, Vec3d{xy, yhi - ylo, 0}, Vec3d{xz, yz, zhi - zlo}},
+               periodic_of(item)};
     return Done{};
+  }
+
+  static std::array<bool, 3> periodic_of(std::string_view item) {
+    std::vector<std::string_view> words;
+    TextScanner scanner(item, "");
+    scanner.next_line();
+    for (std::string_view word; scanner.next_field(word);) words.push_back(word);
+    std::array<bool, 3> periodic{true, true, true};
+    if (words.size() < 3) return periodic;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string_view letters = words[words.size() - 3 + k];
+      if (letters.size() != 2 || letters.find_first_not_of("pfsm") != std::string_view::npos) return {true, true, true};
+      periodic[k] = letters == "pp";
+    }
+    return periodic;
   }
 
   Status read_atoms(std::string_view item) {

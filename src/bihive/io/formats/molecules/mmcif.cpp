@@ -43,14 +43,15 @@ enum Item {
   kAuthResidue,
   kLabelResidue,
   kEntity,
+  kSerial,
   kItems
 };
 constexpr std::string_view kItemNames[kItems] = {
-    "cartn_x",      "cartn_y",           "cartn_z",        "group_pdb",
-    "type_symbol",  "occupancy",         "b_iso_or_equiv", "pdbx_pdb_model_num",
-    "label_alt_id", "pdbx_pdb_ins_code", "auth_asym_id",   "auth_seq_id",
-    "auth_atom_id", "label_asym_id",     "label_seq_id",   "label_atom_id",
-    "auth_comp_id", "label_comp_id",     "label_entity_id"};
+    "cartn_x",      "cartn_y",           "cartn_z",         "group_pdb",
+    "type_symbol",  "occupancy",         "b_iso_or_equiv",  "pdbx_pdb_model_num",
+    "label_alt_id", "pdbx_pdb_ins_code", "auth_asym_id",    "auth_seq_id",
+    "auth_atom_id", "label_asym_id",     "label_seq_id",    "label_atom_id",
+    "auth_comp_id", "label_comp_id",     "label_entity_id", "id"};
 
 // The grammar throws this to end with an error that has its place.
 struct Stop {
@@ -368,6 +369,7 @@ class AtomSites {
     const auto text = [](const Value& value) { return value.missing() ? std::string_view() : value.unquoted(); };
     AtomNames names;
     names.record = lower_case(text(row[kGroup])) == "hetatm" ? "HETATM" : "ATOM";
+    names.serial = text(row[kSerial]);
     names.chain = text(chosen(row, kAuthChain, kLabelChain));
     names.residue_number = text(chosen(row, kAuthSequence, kLabelSequence));
     names.insertion = text(row[kInsertion]);

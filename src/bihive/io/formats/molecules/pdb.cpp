@@ -137,12 +137,12 @@ class PdbReader {
   Status read_atom() {
     const std::string_view line = scanner_.line();
     const ColumnShift shift = column_shift(line);
-    if (!shift) return read_columns(line, trim(pdb_columns(line, 23, 26)));
+    if (!shift) return read_columns(line, trim(pdb_columns(line, 7, 11)), trim(pdb_columns(line, 23, 26)));
     if (shifted_++ == 0) first_shifted_line_ = scanner_.line_number();
-    return read_columns(without_shift(line, shift), shifted_residue_number(line, shift));
+    return read_columns(without_shift(line, shift), shifted_serial(line, shift), shifted_residue_number(line, shift));
   }
 
-  Status read_columns(std::string_view line, std::string_view residue_number) {
+  Status read_columns(std::string_view line, std::string_view serial, std::string_view residue_number) {
     // The coordinates are required.
     std::vector<double>* const axes[3] = {&spheres_.x, &spheres_.y, &spheres_.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -174,6 +174,7 @@ class PdbReader {
     const double occupancy = optional_number(pdb_columns(line, 55, 60), 1);
     AtomNames names;
     names.record = line.substr(0, 4) == "ATOM" ? "ATOM" : "HETATM";
+    names.serial = serial;
     names.chain = of.chain;
     names.residue_number = residue_number;
     names.insertion = trim(pdb_columns(line, 27, 27));

@@ -73,6 +73,10 @@ std::string without_shift(std::string_view line, ColumnShift shift) {
   return plain;
 }
 
+std::string_view shifted_serial(std::string_view line, ColumnShift shift) {
+  return trim(line.substr(kSerial - 1, kSerialWidth + shift.serial));
+}
+
 std::string_view shifted_residue_number(std::string_view line, ColumnShift shift) {
   return trim(line.substr(kResidue - 1 + shift.serial, kResidueWidth + shift.residue));
 }

@@ -44,7 +44,8 @@ struct ColumnShift {
 ColumnShift column_shift(std::string_view line);
 /// The line without the last digits of these numbers, so that its columns are those of the format.
 std::string without_shift(std::string_view line, ColumnShift shift);
-/// The residue's whole number, as a text of the line.
+/// The whole numbers, as texts of the line.
+std::string_view shifted_serial(std::string_view line, ColumnShift shift);
 std::string_view shifted_residue_number(std::string_view line, ColumnShift shift);
 
 }  // namespace bihive

@@ -73,6 +73,7 @@ class PqrReader {
 
     AtomNames of_atom;
     of_atom.record = atom->hetero ? "HETATM" : "ATOM";
+    of_atom.serial = atom->serial;
     of_atom.chain = atom->chain;
     of_atom.residue_number = atom->residue_number;
     of_atom.insertion = atom->insertion;

@@ -55,6 +55,7 @@ std::optional<PqrLine> by_fields(std::string_view line) {
     const std::size_t count = has_chain ? kFieldsWithChain : kFieldsWithChain - 1;
     if (fields.size() != count || !are_numbers(&fields[count - 5])) continue;
     PqrLine atom;
+    atom.serial = fields[0];
     atom.name = fields[1];
     atom.residue = fields[2];
     if (has_chain) atom.chain = fields[3];
@@ -75,6 +76,7 @@ std::optional<PqrLine> by_columns(std::string_view line) {
     return trim(line.substr(first - 1, last - first + 1));
   };
   PqrLine atom;
+  atom.serial = columns(7, 11);
   atom.name = columns(13, 16);
   const ResidueAndChain names = ResidueNames().of(line);
   atom.residue = names.residue;

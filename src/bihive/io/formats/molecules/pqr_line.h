@@ -9,7 +9,7 @@ namespace bihive {
 /// The parts of an ATOM or HETATM line. They are views into the line.
 struct PqrLine {
   bool hetero = false;
-  std::string_view name, residue, chain, residue_number, insertion;
+  std::string_view serial, name, residue, chain, residue_number, insertion;
   std::string_view place;       ///< all that names the residue
   std::string_view numbers[5];  ///< x, y, z, charge, radius: parse_double() reads each
   std::string_view element;     ///< a symbol behind the radius, as Open Babel writes it; mostly empty
