@@ -112,18 +112,13 @@ int for_rays(const bihive_tree& tree, const bihive_rays& rays, int threads, cons
              const InImages& in_images) {
   if (!tree.images) return for_parts(tree, rays, threads, answer);
   if (const Status status = tree.images->check_rays(); !status) return failed(status.error());
-  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
-  std::atomic<std::int64_t> without_end{kNone};
+  FirstWithoutEnd without_end;
   const int done = for_parts(tree, rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t number) {
-    if (without_end <= first) return;
-    const std::int64_t ray = in_images(*tree.images, part, first, number);
-    if (ray == kNothing) return;
-    std::int64_t known = without_end;
-    while (first + ray < known && !without_end.compare_exchange_weak(known, first + ray)) {
-    }
+    if (!without_end.is_before(first)) without_end.take(first, in_images(*tree.images, part, first, number));
   });
-  if (done != kDone || without_end == kNone) return done;
-  return failed(PeriodicImages::ray_without_end(without_end));
+  if (done != kDone) return done;
+  const Status status = without_end.status();
+  return status ? kDone : failed(status.error());
 }
 
 // `vectors` holds the 9 numbers of the periodic cell; null without a cell.

@@ -364,6 +364,11 @@ class Encoded(FilmTest):
             # Sides are even.
             self.assertEqual((shown["width"], shown["height"], shown["nb_read_frames"]), (50, 34, "6"))
             self.assertEqual(shown["avg_frame_rate"], "10/1")
+            # The last column is that before it, not a black one.
+            picture = self.decoded(name)[: 50 * 34 * 3]
+            for y in range(33):
+                last, before = (picture[3 * (50 * y + x): 3 * (50 * y + x) + 3] for x in (49, 48))
+                self.assertLess(max(abs(a - b) for a, b in zip(last, before)), 30)
         self.film("run.xyz", "-o", "run.mkv", *SMALL, *LOSSLESS)
         self.film("run.xyz", "-o", "run/%d.png", *SMALL)
         self.assertEqual(self.decoded("run.mkv"), self.pixels_of_sequence("run"))

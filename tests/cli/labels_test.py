@@ -46,6 +46,65 @@ class Labels(ProgramTest):
         own = ["--eye", "0,0,20", "--look-at", "0,0,0"]
         self.assertEqual(camera("--legend", *own)["eye"], [0, 0, 20])
 
+    def said(self, *options, name="a.csv"):
+        """What a picture says on stderr."""
+        return self.run_bihive("render", name, "-o", "a.png", *SIZE, *options).stderr
+
+    def test_a_legend_of_unknown_numbers_has_no_bar(self):
+        self.write("n.csv", "x,y,z,r,v\n0,0,0,.5,nan\n1,0,0,.5,nan\n")
+        text = self.said("--colour-by", "v", "--legend", "--style", "flat", "--fog", "0", name="n.csv")
+        self.assertIn("no sphere has a number of v: all have the colour of unknown numbers", text)
+        yellow = [p for row in png_pixels(self.read("a.png")) for p in row if p[0] > 225 and p[1] > 200 and p[2] < 60]
+        self.assertEqual(yellow, [])
+
+    def test_zero_lies_below_a_logarithm(self):
+        self.write("z.csv", "x,y,z,r,v\n0,0,0,.5,0\n1,0,0,.5,0.001\n2,0,0,.5,50\n")
+        look = ["--style", "flat", "--outline", "0", "--fog", "0", "--colour-by", "v:viridis:1,100:log"]
+        row = self.picture(*look, name="z.csv")[80]
+        left, middle = row[50][:3], row[120][:3]
+        self.assertEqual(left, middle)
+        with_legend = self.picture(*look, "--legend", name="z.csv")
+        self.assertEqual(self.said(*look, "--legend", name="z.csv"), "")
+        self.assertIn(left, {p[:3] for r in with_legend for p in r[180:]})
+
+    def test_letters_that_the_font_lacks_are_told(self):
+        self.assertEqual(self.said("--title", "Ångström, β², …"), "")
+        self.assertIn("the title has boxes in place of letters that the font (DejaVu Sans) lacks: 水", self.said("--title", "水 水"))
+        self.write("w.csv", "x,y,z,r,part\n0,0,0,1,水\n")
+        self.assertIn("the legend has boxes", self.said("--colour-by", "part", "--legend", name="w.csv"))
+
+    def test_long_names_stay_beside_the_spheres(self):
+        self.write("l.csv", "x,y,z,r,part\n" + "".join(
+            f"{i % 4 * 2},{i // 4 * 2},0,1,{'polyethylene_glycol_methyl_ether_methacrylate_ba' if i % 2 else 'Na'}\n" for i in range(8)))
+        look = ["--style", "flat", "--outline", "0", "--fog", "0", "--colour-by", "part", "--size", "640x480", "--samples", "1"]
+
+        def drawn(*options):
+            self.succeed("render", "l.csv", "-o", "a.png", *look, *options)
+            return png_pixels(self.read("a.png"))
+
+        pixels = drawn("--legend")
+        colours = {p[:3] for row in drawn() for p in row if max(p) - min(p) > 60}
+        spheres = [x for row in pixels for x, p in enumerate(row[:500]) if p[:3] in colours]
+        letters = [x for row in pixels for x, p in enumerate(row) if max(p[:3]) < 60]
+        self.assertGreater(min(letters), max(spheres) - 40)
+
+    def test_a_picture_without_a_sphere_is_told(self):
+        for options, reason in [(["--radius", "0"], "all have radius 0"), (["--opacity", "0"], "all have opacity 0"),
+                                (["--eye", "0,0,9", "--look-at", "0,0,20"], "the camera looks past them")]:
+            self.assertIn(reason, self.said(*options))
+        for options in (["--opacity", "0", "--select", "index 1", "--opacity", "1"], ["--eye", "0,0,9", "--look-at", "0,0,0"]):
+            self.assertEqual(self.said(*options), "")
+
+    def test_edges_of_a_cell_are_seen_before_any_background(self):
+        cell = ["--cell-vectors", "10,0,0,0,10,0,0,0,10", "--cell-origin=-5,-5,-5", "--cell", "--fog", "0"]
+        for background in ("black", "#101020", "white"):
+            pixels = self.picture(*cell, "--background", background)
+            behind = pixels[2][2]
+            far = max(max(abs(p[k] - behind[k]) for k in range(3)) for row in pixels[:40] for p in row)
+            self.assertGreater(far, 90, background)
+        dark = self.picture(*cell, "--background", "black", "--cell-colour", "#303030")
+        self.assertLess(max(max(p) for p in dark[0]), 90)
+
     def test_threads_and_crops_have_the_same_bits(self):
         whole = self.picture(*ALL, "--threads", "1")
         for threads in ("2", "7"):

@@ -53,6 +53,20 @@ class Trace(ProgramTest):
         self.assertEqual(ids, [0, 1, -1])
         self.assertAlmostEqual(t[0], 9.95, places=6)
 
+    def test_periodic_rays_see_images(self):
+        self.write("c.xyz", '1\nLattice="4 0 0 0 4 0 0 0 4"\nX 1 1 1\n')
+        rays = [[-9, 1, 1, 1, 0, 0], [100.5, 1, 1, 1, 0, 0]]
+        alone = self.trace(rays, "--radius", "1", given="c.xyz")
+        self.assertEqual(alone, ([9, INF], [0, -1]))  # as in pictures
+        self.assertEqual(self.trace(rays, "--radius", "1", "--periodic", given="c.xyz"), ([1, 1.5], [0, 0]))
+        self.assertEqual(self.trace(rays, "--radius", "1", "--periodic", "--any", given="c.xyz"), ([0, 0], [0, 0]))
+        numpy.save(self.path("rays.npy"), numpy.array([[-9, 1, 1, 1, 0, 0], [0, 3, 3, 1, 0, 0]], numpy.float32))
+        options = ["--rays", "rays.npy", "--t", "a.npy", "--id", "b.npy", "--periodic"]
+        self.assertIn("ray 1 passes more than 16384 periodic cells", self.fail_input("trace", "c.xyz", "--radius", "1", *options))
+        self.assertIn("no periodic cell", self.fail_usage("trace", "s.csv", *options))
+        self.assertIn("wide engine", self.fail_usage("trace", "c.xyz", "--radius", "1", "--engine", "brute", *options))
+        self.assertIn("--replicate", self.fail_usage("trace", "c.xyz", "--radius", "1", "--replicate", "2x1x1", *options))
+
     def test_any(self):
         rays = [[0, 0, 100, 0, 0, -1], [0, 5, 100, 0, 0, -1]]
         self.assertEqual(self.trace(rays, "--any"), ([0, INF], [0, -1]))

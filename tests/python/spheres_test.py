@@ -228,6 +228,7 @@ class ColourMap(unittest.TestCase):
         values = [0.0, 0.5, 1.0]
         colours = bh.colour_map(values, ["black", "#0000ff", "red"])
         np.testing.assert_array_equal(colours, [[0, 0, 0], [0, 0, 1], [1, 0, 0]])
+        np.testing.assert_array_equal(colours, bh.colour_map(values, "black-#0000ff-red"))
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "map.txt")
             path.write_text("0 0 0\n0 0 1\n1 0 0\n")
@@ -239,6 +240,19 @@ class ColourMap(unittest.TestCase):
         for wrong in (["red"], ["red"] * 1025, ["red", "rde"], ["red", 1], 5):
             with self.assertRaisesRegex(bh.UsageError, "map"):
                 bh.colour_map(values, wrong)
+
+    def test_names_of_other_programs_are_no_columns(self):
+        for other, ours in (("color", "colour"), ("radii", "radius"), ("elements", "element"), ("pbc", "periodic")):
+            with self.assertRaisesRegex(bh.UsageError, f"{other}: is no argument.*did you mean {ours}") as caught:
+                bh.Spheres([[0, 0, 0]], radius=1, **{other: [1]})
+            self.assertEqual(caught.exception.argument, other)
+        self.assertEqual(bh.Spheres([[0, 0, 0]], radius=1, columns={"radii": [3]})["radii"].tolist(), [3])
+
+    def test_what_is_not_there_is_told(self):
+        with self.assertWarnsRegex(bh.InputWarning, "'element Fe' takes no sphere: no sphere has element Fe; there are C, N, O, S"):
+            bh.select(bh.read("demo"), "element Fe")
+        with self.assertWarnsRegex(bh.InputWarning, "no periodic images"):
+            bh.Spheres([[0, 0, 0]], radius=1, cell=[[1, 0, 0], [2, 0, 0], [0, 0, 1]])
 
     def test_categories(self):
         colours = bh.colour_map(["a", "b", "a"])

@@ -136,7 +136,9 @@ TEST(ColourBy, AFiniteRangeIsTheDefault) {
 TEST(ColourBy, ARangeOfOwnAndALogarithm) {
   const auto colours = coloured("heat:magma:1,100:log");
   EXPECT_EQ(on_screen(colours[1]), on_screen(map_colour(ColourMap::magma, 0.5, Transfer::srgb)));
-  EXPECT_EQ(on_screen(colours[5]), 0x808080u) << "no logarithm";
+  EXPECT_EQ(colours[5], colours[0]) << "-5 lies below a logarithmic range";
+  EXPECT_EQ(coloured("heat:magma:10,100:log")[5], map_colour(ColourMap::magma, 0, Transfer::srgb));
+  EXPECT_EQ(coloured("heat:magma_r:10,100:log")[5], map_colour(ColourMap::magma, 1, Transfer::srgb));
   EXPECT_EQ(coloured("heat:magma:log")[0], map_colour(ColourMap::magma, 0, Transfer::srgb));
   EXPECT_EQ(coloured("heat::5,20")[0], map_colour(ColourMap::viridis, 0, Transfer::srgb)) << "below the range";
 }

@@ -64,6 +64,25 @@ TEST(WriteSpheres, AMoleculeComesBack) {
   expect_comes_back(read_text(kPdb, "a.pdb").spheres, "pdb");
 }
 
+// Far from 0 a reader counts from an origin, and a decimal that merely rounds to the same binary32 is another place.
+TEST(WriteSpheres, EveryDigitOfFarPlacesIsKept) {
+  const std::vector<double> x{77777776, 77777780.25}, y{14548, 14549}, z{-43439352, -43439351}, r{1.5, 0.25};
+  const std::vector<float> xf{77777776, 77777784}, yf{14548, 14549}, zf{-43439352, -43439348}, rf{1.5F, 0.25F};
+  const SphereSet sets[] = {SphereSet::from_world(NumbersView::of(x), NumbersView::of(y), NumbersView::of(z),
+                                                  NumbersView::of(r), SphereSet::Origin::fitting)
+                                .value(),
+                            SphereSet::from_world(xf, yf, zf, rf).value()};
+  EXPECT_TRUE(sets[0].has_origin());
+  EXPECT_FALSE(sets[1].has_origin());
+  for (const SphereSet& spheres : sets)
+    for (const auto& [format, name] : {std::pair{SphereFileFormat::csv, "a.csv"},
+                                       {SphereFileFormat::extended_xyz, "a.xyz"},
+                                       {SphereFileFormat::ply, "a.ply"}}) {
+      const SphereFile again = read_text(write_spheres(spheres, format).bytes, name);
+      for (std::int64_t id = 0; id < 2; ++id) EXPECT_EQ(again.spheres.centre(id), spheres.centre(id)) << name;
+    }
+}
+
 TEST(WriteSpheres, DecimalsAreShort) {
   EXPECT_EQ(write_spheres(read_text(kPdb, "a.pdb").spheres, SphereFileFormat::csv).bytes,
             "element,x,y,z,radius,occupancy,b_factor,resid,serial,record,chain,resname,name\n"

@@ -27,6 +27,17 @@ TEST(Lattice, NeedsIndependentVectors) {
   EXPECT_FALSE(Lattice::of(none));
 }
 
+TEST(Lattice, SaysWhyThereIsNone) {
+  const auto why = [](Vec3d a, Vec3d b, Vec3d c, std::array<bool, 3> periodic = {true, true, true}) {
+    return Lattice::why_none({{}, {a, b, c}, periodic});
+  };
+  EXPECT_EQ(why({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), "");
+  EXPECT_EQ(why({}, {}, {}), "");
+  EXPECT_EQ(why({1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {false, false, false}), "");
+  EXPECT_NE(why({1, 0, 0}, {2, 0, 0}, {0, 0, 1}), "");
+  EXPECT_NE(why({1, 0, 0}, {0, 1e6, 0}, {0, 0, 1}), "");
+}
+
 TEST(Lattice, ExtendsAlongPeriodicVectorsAlone) {
   Cell slab = cell_of({4, 0, 0}, {1, 2, 0}, {0, 0, 8});
   slab.periodic[2] = false;

@@ -54,6 +54,14 @@ TEST(Escaped, WritesOutWhatIsNoUtf8) {
   EXPECT_EQ(escaped("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half of a pair";
 }
 
+TEST(RangeText, TellsTheEndsOfANarrowRangeApart) {
+  EXPECT_EQ(range_text(1.5, 20), "1.5 to 20");
+  EXPECT_EQ(range_text(0.00402472, 1), "0.00402472 to 1");
+  EXPECT_EQ(range_text(5399988, 5400012), "5399988 to 5400012");
+  EXPECT_EQ(range_text(5399987.75, 5400012.5), "5399987.75 to 5400012.5");
+  EXPECT_EQ(range_text(-1, 1e30), "-1 to 1e+30");
+}
+
 TEST(Escaped, IsWhatErrorsAre) {
   const Error error{"wrong\n", "two\nlines\x1b[2J.pdb", 3, 0, "hint\u0085"};
   EXPECT_EQ(error.to_string(), "two\\nlines\\x1b[2J.pdb:3: wrong\\n; hint\\u0085");

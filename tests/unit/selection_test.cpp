@@ -202,6 +202,7 @@ TEST(Selection, ASelectionThatFindsNothingSaysWhatThereIs) {
   EXPECT_EQ(what_there_is(protease(), "chain a"), "no sphere has chain a; there are A, B, ''");
   EXPECT_EQ(what_there_is(protease(), "chain A and resid 500 600"),
             "no sphere has resid 500 600; there are numbers from 1 to 280");
+  EXPECT_EQ(what_there_is(protease(), "element Fe"), "no sphere has element Fe; there are C, N, O, S");
   EXPECT_EQ(what_there_is(protease(), "chain A and x > 1000"), "") << "no test of values";
   EXPECT_EQ(what_there_is(protease(), "chain A and"), "");
   const std::string phases = "no sphere has phase gas; there are solid, liquid, Solid, 10, C5'";

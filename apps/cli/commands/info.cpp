@@ -162,7 +162,7 @@ void print_text(const Facts& facts, bool with_trees) {
   };
   const auto interval = [](double min, double max) {
     // Adding 0 makes 0 of -0.
-    return min == max ? fmt::format("{:.6g}", min + 0) : fmt::format("{:.6g} to {:.6g}", min + 0, max + 0);
+    return min == max ? fmt::format("{:.6g}", min + 0) : range_text(min + 0, max + 0);
   };
   const auto bytes = [](const MemoryPrediction::Range& r) {
     return readable_bytes(static_cast<double>(r.low)) + " to " + readable_bytes(static_cast<double>(r.high));

@@ -114,7 +114,7 @@ void print_attributes_text(const Input& input, const std::vector<AttributeFacts>
       if (one.texts.size() > kMostTextsShown) values += " ...";
     } else {
       // Adding 0 makes 0 of -0.
-      values = one.has_range() ? fmt::format("{:.6g} to {:.6g}", one.least + 0, one.most + 0) : "unknown";
+      values = one.has_range() ? range_text(one.least + 0, one.most + 0) : "unknown";
       if (one.unknown > 0) values += fmt::format(", {} NaN", grouped(one.unknown));
     }
     print(fmt::format("  {:<18}{:<26}{}\n", escaped(one.name), one.kind, escaped(values)));

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bihive/base/parallel.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/timer.h"
 #include "bihive/geometry/plane.h"
 #include "bihive/io/npy.h"
@@ -17,6 +19,7 @@
 #include "bihive/render/memory.h"
 #include "bihive/scene/generators.h"
 #include "bihive/simd/target.h"
+#include "bihive/wide/periodic_images.h"
 #include "commands/commands.h"
 #include "commands/names.h"
 #include "support/interrupt.h"
@@ -82,17 +85,23 @@ struct Answers {
 };
 
 // The answers to rays first to first + count - 1, in the form of the files. Returns the number of invalid rays.
-std::int64_t answer(const Tracer& tracer, const Plane* plane, bool any, const RayFile& file, std::int64_t first,
-                    std::int64_t count, const HitSpan& hits) {
+std::int64_t answer(const Tracer& tracer, const PeriodicImages* images, FirstWithoutEnd& without_end,
+                    const Plane* plane, bool any, const RayFile& file, std::int64_t first, std::int64_t count,
+                    const HitSpan& hits) {
   RayBatch rays;
   for (std::int64_t i = 0; i < count; ++i) rays.push_back(file.ray(first + i, tracer.spheres().origin()));
   if (any) {
     std::vector<std::uint8_t> hidden(static_cast<std::size_t>(count));
-    tracer.occluded(rays.span(), RayOrder::any, hidden.data());
+    if (images == nullptr)
+      tracer.occluded(rays.span(), RayOrder::any, hidden.data());
+    else
+      without_end.take(first, images->occluded(*tracer.wide_tree(), rays.span(), hidden.data()));
     for (std::int64_t i = 0; i < count; ++i)
       if (hidden[static_cast<std::size_t>(i)] != 0) hits.t[i] = 0, hits.sphere_id[i] = 0;
-  } else {
+  } else if (images == nullptr) {
     tracer.closest_hits(rays.span(), RayOrder::any, hits);
+  } else {
+    without_end.take(first, images->closest_hits(*tracer.wide_tree(), rays.span(), hits));
   }
 
   // The plane is hit if it is nearer; at the same t the sphere is hit.
@@ -121,7 +130,25 @@ std::int64_t rays_per_chunk(const Tracer& tracer, std::int64_t rays, std::int64_
   return std::clamp(rays / (workers * kChunksPerThread), kFewestPerChunk, kMostPerChunk);
 }
 
-Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, const TraceOptions& options) {
+// The images that rays see: with --periodic alone, as in pictures.
+std::optional<PeriodicImages> images_for(const SphereSet& spheres, const Tracer& tracer, const TraceOptions& options) {
+  if (!options.input.reading.has("periodic")) return std::nullopt;
+  if (spheres.has_images())
+    fail_setting("periodic",
+                 ": rays see all images, and the copies of " + setting_name("replicate") + " would be met twice",
+                 "leave one of them out");
+  if (tracer.engine() != Engine::wide)
+    fail_setting("periodic", ": rays see images with the wide engine alone", "leave out " + setting_name("engine"));
+  std::optional<PeriodicImages> images = value_or_fail(PeriodicImages::of(spheres, static_cast<int>(options.threads)));
+  if (!images)
+    fail_setting("periodic", ": there is no periodic cell along which the spheres repeat",
+                 "give one with " + setting_name("cell_vectors"));
+  value_or_fail(images->check_rays());
+  return images;
+}
+
+Answers trace(const RayFile& rays, const Tracer& tracer, const PeriodicImages* images, const Plane* plane,
+              const TraceOptions& options) {
   const CancellableSection section;
   Progress progress("tracing");
   Answers answers;
@@ -132,20 +159,23 @@ Answers trace(const RayFile& rays, const Tracer& tracer, const Plane* plane, con
   const std::int64_t most = rays_per_chunk(tracer, rays.size(), options.threads);
   const std::int64_t chunks = (rays.size() + most - 1) / most;
   std::vector<std::int64_t> bad_rays(static_cast<std::size_t>(chunks), 0);
+  FirstWithoutEnd without_end;
   std::atomic<std::int64_t> chunks_done{0};
   std::atomic_flag reporting = ATOMIC_FLAG_INIT;
   parallel_for(static_cast<int>(options.threads), chunks, [&](std::int64_t chunk) {
     if (CancellableSection::token().cancelled()) return;
     const std::int64_t first = chunk * most;
     const std::int64_t count = std::min(rays.size() - first, most);
-    bad_rays[static_cast<std::size_t>(chunk)] = answer(tracer, plane, options.any, rays, first, count,
-                                                       HitSpan{answers.t.data(), answers.id.data()}.part(first));
+    if (without_end.is_before(first)) return;
+    bad_rays[static_cast<std::size_t>(chunk)] = answer(tracer, images, without_end, plane, options.any, rays, first,
+                                                       count, HitSpan{answers.t.data(), answers.id.data()}.part(first));
     const std::int64_t done = ++chunks_done;
     if (reporting.test_and_set()) return;
     progress.update(static_cast<double>(done) / static_cast<double>(chunks));
     reporting.clear();
   });
   CancellableSection::leave_if_cancelled();
+  value_or_fail(without_end.status());
   for (const std::int64_t count : bad_rays) answers.bad_rays += count;
   answers.hits = std::count_if(answers.id.begin(), answers.id.end(), [](std::int64_t id) { return id != kNothing; });
   return answers;
@@ -171,7 +201,8 @@ void run_trace(const TraceOptions& options) {
 
   renew_group_limit_for_threads(options.threads);
   const Timer timer;
-  Answers answers = trace(rays, tracer, options.plane ? &plane : nullptr, options);
+  const std::optional<PeriodicImages> images = images_for(input.scene.spheres, tracer, options);
+  Answers answers = trace(rays, tracer, images ? &*images : nullptr, options.plane ? &plane : nullptr, options);
   const double trace_ms = timer.elapsed_ms();
   if (answers.bad_rays > 0)
     warn(

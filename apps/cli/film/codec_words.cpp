@@ -1,5 +1,7 @@
 #include "film/codec_words.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -92,8 +94,13 @@ std::vector<std::string> codec_words(const std::string& text) {
 }
 
 // Sides are even for H.264 with halved colours; the colours are those of screens.
-std::vector<std::string> default_codec(const std::string& ending) {
-  std::vector<std::string> words{"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv"};
+std::vector<std::string> default_codec(const std::string& ending, int width_px, int height_px) {
+  std::string filter = "scale=out_color_matrix=bt709:out_range=tv";
+  // The last column and row again, where one more is needed.
+  if (width_px % 2 != 0 || height_px % 2 != 0)
+    filter = fmt::format("pad=ceil(iw/2)*2:ceil(ih/2)*2,fillborders=right={}:bottom={}:mode=smear,{}", width_px % 2,
+                         height_px % 2, filter);
+  std::vector<std::string> words{"-vf", filter};
   const std::vector<std::string> codec =
       codec_words(ending == ".webm" ? "-c:v libvpx-vp9 -crf 24 -b:v 0 -row-mt 1" : "-c:v libx264 -crf 18");
   words.insert(words.end(), codec.begin(), codec.end());

@@ -28,7 +28,8 @@ void shorten_help(CLI::App& command) {
   if (named.size() <= kLongHelp) return;
   for (CLI::Option* option : named) {
     const auto is_common = [option](const char* name) { return option->check_name(name); };
-    if (std::none_of(kCommonOptions.begin(), kCommonOptions.end(), is_common)) option->group("");
+    const bool has_place = !option->get_name(true).empty() && option->get_name(true).front() != '-';
+    if (!has_place && std::none_of(kCommonOptions.begin(), kCommonOptions.end(), is_common)) option->group("");
     // Exclusions are listed in the long help.
     const std::set<CLI::Option*> excluded = option->get_excludes();
     for (CLI::Option* other : excluded) option->remove_excludes(other);

@@ -114,6 +114,18 @@ def _periodic(value: Any) -> tuple[bool, bool, bool]:
     return bool(a), bool(b), bool(c)
 
 
+# Names of other programs for arguments, which would otherwise become columns.
+_OTHER_NAMES = {
+    **dict.fromkeys(("color", "colors", "colours", "rgb"), "colour"),
+    **dict.fromkeys(("radii", "radiuses"), "radius"),
+    **dict.fromkeys(("elements", "symbols", "species"), "element"),
+    **dict.fromkeys(("types",), "type"),
+    **dict.fromkeys(("alpha", "opacities"), "opacity"),
+    **dict.fromkeys(("box", "lattice"), "cell"),
+    **dict.fromkeys(("pbc",), "periodic"),
+}
+
+
 class Spheres:
     """Spheres with their attributes: an immutable set.
 
@@ -127,7 +139,8 @@ class Spheres:
     type: whole numbers, shape (n,), or one.
     cell: the periodic cell: three lengths, vectors (3, 3), or vectors and corner (4, 3).
     periodic: whether distances (selections, Tree) see the images along the cell; or three of them, one for each vector.
-    columns: further attributes by name, each of shape (n,): numbers or texts. Selections and colour_by know them.
+    columns: further attributes by name, each of shape (n,): numbers or texts. Selections and colour_by know them. They may
+        also be arguments of their own.
 
     Raises UsageError (a ValueError) that names the argument, InputError for a coordinate or radius that is NaN, infinite,
     beyond 3.4e38 or negative; its message has the sphere's position.
@@ -155,6 +168,10 @@ class Spheres:
         columns: Optional[Mapping[str, Any]] = None,
         **more_columns: Any,
     ) -> None:
+        for other in more_columns:
+            if other in _OTHER_NAMES:
+                hint = f"did you mean {_OTHER_NAMES[other]}? A column of that name goes into columns"
+                raise bad_argument(other, "is no argument", hint)
         places = numbers("xyz", xyz)
         if places.shape == (0,):
             places = places.reshape(0, 3)
@@ -493,7 +510,12 @@ def select(spheres: Spheres, expression: str, *, periodic: bool = True) -> Array
     """
     if not isinstance(spheres, Spheres):
         raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
-    return spheres._core.select(text_of("expression", expression), "expression", boolean("periodic", periodic))
+    text = text_of("expression", expression)
+    found_spheres = spheres._core.select(text, "expression", boolean("periodic", periodic))
+    if not found_spheres.any():
+        reason = spheres._core.what_there_is(text)
+        warnings.warn(f"the selection '{text}' takes no sphere{': ' if reason else ''}{reason}", InputWarning, stacklevel=2)
+    return found_spheres
 
 
 def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> dict[str, Any]:
@@ -514,6 +536,8 @@ def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> 
 def _map_text(map: Any) -> str:
     if isinstance(map, os.PathLike) or (isinstance(map, str) and map not in _MAPS and ("/" in map or "." in map)):
         return "-".join(_bihive.colour_map_of_file(os.fspath(map)))
+    if isinstance(map, str) and "-" in map and map not in _MAPS:
+        map = map.split("-")
     if not isinstance(map, (list, tuple)):
         return one_of("map", map, _MAPS)
     if not 2 <= len(map) <= 1024:

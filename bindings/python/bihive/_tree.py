@@ -148,7 +148,7 @@ class Tree:
         periodic: rays meet the images of the spheres too, as positions of their spheres.
         order: "blocks" if each 64 neighbours are close to each other, as 8 x 8 pixels are: faster. The answers do not change.
 
-        Other Python threads run meanwhile, and Ctrl-C ends it. Error: InputError for a periodic ray that passes 16,384
+        Other Python threads run meanwhile, and Ctrl-C ends it. Error: UsageError for a periodic ray that passes 16,384
         cells without a hit or a t_max.
         """
         rays = self._rays(origins, directions, t_min, t_max, leaves, inside)

@@ -14,6 +14,7 @@
 #include "bihive/base/timer.h"
 #include "bihive/base/write_file.h"
 #include "bihive/bih/reference_builder.h"
+#include "bihive/geometry/lattice.h"
 #include "bihive/geometry/rounding_loss.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/io/bundled.h"
@@ -101,7 +102,9 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
   for (const auto& [column, values] : texts) attributes.texts.push_back(texts_from(column, values));
   if (cell) {
     const auto row = [&](py::ssize_t i) { return Vec3d{cell->at(i, 0), cell->at(i, 1), cell->at(i, 2)}; };
-    made->file.spheres.cell() = Cell{row(3), {row(0), row(1), row(2)}, periodic};
+    const Cell stated{row(3), {row(0), row(1), row(2)}, periodic};
+    made->file.spheres.cell() = stated;
+    if (std::string why = Lattice::why_none(stated); !why.empty()) made->file.warnings.push_back(std::move(why));
   }
   made->file.format = format;
   made->name = name;
@@ -348,6 +351,10 @@ void bind_spheres(py::module_& module) {
       .def_property_readonly("rules", [](const Spheres& s) { return s.file.rules; })
       .def_property_readonly("warnings", [](const Spheres& s) { return safe_texts(s.file.warnings); })
       .def("select", select)
+      .def("what_there_is",
+           [](const Spheres& s, const std::string& expression) {
+             return safe_texts({what_there_is(s.file.spheres, expression)}).front();
+           })
       .def("statistics", statistics)
       .def("written", written);
   module.def("spheres_from_arrays", spheres_from_arrays);

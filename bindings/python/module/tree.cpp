@@ -144,25 +144,6 @@ void trace_in_pieces(const RayTree& tree, const RayArrays& rays, RayOrder order,
   if (no_memory) throw std::bad_alloc();
 }
 
-// Which of a periodic tree's rays had no answer first, in the order of the rays. Pieces after it are passed over.
-class FirstWithoutEnd {
- public:
-  bool is_before(std::int64_t ray) const { return first_ <= ray; }
-  void take(std::int64_t first, std::int64_t in_piece) {
-    if (in_piece == kNothing) return;
-    std::int64_t known = first_;
-    while (first + in_piece < known && !first_.compare_exchange_weak(known, first + in_piece)) {
-    }
-  }
-  void check() const {
-    if (first_ != kNone) value_of(Status(PeriodicImages::ray_without_end(first_)));
-  }
-
- private:
-  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
-  std::atomic<std::int64_t> first_{kNone};
-};
-
 // The tree of rays that see images. Null: they do not. bihive/_tree.py has checked that there are images.
 const WideTree* tree_of_images(const RayTree& tree, bool periodic) {
   if (!periodic) return nullptr;
@@ -210,7 +191,7 @@ py::tuple closest(const RayTree& tree, const py::array& origin, const py::array&
     else if (!without_end.is_before(first))
       without_end.take(first, tree.images->closest_hits(*periodic, span, hits.part(first)));
   });
-  without_end.check();
+  value_of(without_end.status());
   return py::make_tuple(t, id);
 }
 
@@ -231,7 +212,7 @@ py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const p
     else if (!without_end.is_before(first))
       without_end.take(first, tree.images->occluded(*periodic, span, to + first));
   });
-  without_end.check();
+  value_of(without_end.status());
   return hidden;
 }
 
@@ -254,7 +235,7 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
       without_end.take(first, tree.images->all_hits(wide, span, found));
     for (RayHit& hit : found) hit.ray += first;
   });
-  without_end.check();
+  value_of(without_end.status());
   std::size_t count = 0;
   for (const std::vector<RayHit>& some : hits) count += some.size();
   const auto size = static_cast<py::ssize_t>(count);

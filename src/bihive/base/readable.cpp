@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 
@@ -22,6 +24,14 @@ std::string readable_bytes(double bytes) {
     ++unit;
   }
   return unit == 0 ? fmt::format("{:.0f} bytes", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+std::string range_text(double low, double high) {
+  const double extent = high - low, farthest = std::max(std::abs(low), std::abs(high));
+  const bool is_far = extent > 0 && std::isfinite(farthest / extent);
+  const int more = is_far ? static_cast<int>(std::log10(std::max(1.0, farthest / extent))) : 0;
+  const int digits = std::min(6 + more, 17);
+  return fmt::format("{:.{}g} to {:.{}g}", low, digits, high, digits);
 }
 
 std::string readable_number(double value) {

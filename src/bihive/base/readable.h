@@ -13,6 +13,8 @@ std::string grouped(std::int64_t value);
 std::string readable_bytes(double bytes);
 /// 0.1 as "0.1", 1e20 as "1e+20"; at most six digits, and a decimal point whatever the locale.
 std::string readable_number(double value);
+/// "1.5 to 20", with as many digits as tell the ends of a narrow range far from 0 apart: six of its extent.
+std::string range_text(double low, double high);
 
 /// The text as one line that is safe for a terminal. Escaped, as "\n", "\x1b" or "\u009b", are: control characters (C0,
 /// C1, DEL), line and paragraph separators, marks that change the writing direction, invisible characters (of zero

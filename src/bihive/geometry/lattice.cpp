@@ -79,6 +79,14 @@ std::optional<Lattice> Lattice::of(const std::optional<Cell>& cell) {
   return cell ? of(*cell) : std::nullopt;
 }
 
+std::string Lattice::why_none(const Cell& cell) {
+  bool repeats = false;
+  for (std::size_t k = 0; k < 3; ++k) repeats = repeats || (cell.periodic[k] && cell.vectors[k] != Vec3d{});
+  if (!repeats || of(cell)) return "";
+  return "the cell gives no periodic images: its vectors lie in a plane or on a line, or one is more than 16,384 times "
+         "as long as another";
+}
+
 Lattice Lattice::times(double factor) const {
   Lattice made = *this;
   for (std::size_t k = 0; k < 3; ++k) {

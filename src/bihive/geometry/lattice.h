@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "bihive/geometry/cell.h"
 #include "bihive/math/vec3.h"
@@ -33,6 +34,9 @@ class Lattice {
   /// those of a placeholder may, or if one of them is more than 2^14 times as long as another.
   static std::optional<Lattice> of(const Cell& cell);
   static std::optional<Lattice> of(const std::optional<Cell>& cell);
+
+  /// Why a cell whose periodic vectors are not all 0 has no lattice; empty: it has one, or no such vectors.
+  static std::string why_none(const Cell& cell);
 
   /// The same in other units; exact for a power of two.
   Lattice times(double factor) const;

@@ -1,5 +1,8 @@
 #include "bihive/geometry/rounding_loss.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "bihive/base/readable.h"
 
 namespace bihive {
@@ -29,6 +32,17 @@ std::string rounding_warning(const RoundingLoss& loss, std::int64_t all) {
   return "rounding to single precision moves " + std::to_string(loss.moved) + " of " + std::to_string(all) +
          " centres by more than 1 % of the radius (sphere " + std::to_string(loss.worst_id) + " by " +
          readable_number(100 * loss.worst_share) + " %); the radii are too small for the extent";
+}
+
+bool needs_all_digits(const SphereSet& spheres) {
+  if (spheres.has_origin()) return true;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const Vec3d c = spheres.centre(id);
+    const double rounding = 0x1p-24 * std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+    const double radius = spheres.radius(id);
+    if (radius > 0 && rounding > SphereSet::kHarmlessShift / 2 * radius) return true;
+  }
+  return false;
 }
 
 }  // namespace bihive

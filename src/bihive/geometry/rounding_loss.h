@@ -25,4 +25,8 @@ RoundingLoss rounding_loss(const SphereSet& set, const NumbersView& x, const Num
 /// A sentence for the user, about a set of `all` spheres. Empty: nothing has moved.
 std::string rounding_warning(const RoundingLoss& loss, std::int64_t all);
 
+/// Whether a decimal that merely rounds to the same binary32 would not do for a centre: the set has an origin, or a
+/// reader might choose one, since half a unit in the last place is more than a small share of a radius.
+bool needs_all_digits(const SphereSet& spheres);
+
 }  // namespace bihive

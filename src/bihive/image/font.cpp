@@ -101,6 +101,10 @@ const Glyph& glyph_of(char32_t character) {
   return known != font.glyphs.end() ? known->second : font.glyphs.at(0);
 }
 
+bool has_glyph(char32_t character) {
+  return character != 0 && dejavu_sans().glyphs.count(character) > 0;
+}
+
 double kerning_between(char32_t left, char32_t right) {
   if (left > 0xFFFF || right > 0xFFFF) return 0;
   const Font& font = dejavu_sans();
@@ -117,6 +121,28 @@ std::vector<char32_t> characters_of(std::string_view utf8) {
     utf8.remove_prefix(length > 0 ? length : 1);
   }
   return characters;
+}
+
+std::string text_of(const std::vector<char32_t>& characters, std::size_t begin, std::size_t end) {
+  std::string text;
+  for (std::size_t i = begin; i < end; ++i) {
+    const char32_t c = characters[i];
+    const auto add = [&](unsigned mark, char32_t bits) { text += static_cast<char>(mark | bits); };
+    if (c < 0x80) {
+      add(0, c);
+    } else {
+      if (c >= 0x10000)
+        add(0xF0, c >> 18), add(0x80, c >> 12 & 0x3F);
+      else if (c >= 0x800)
+        add(0xE0, c >> 12);
+      if (c >= 0x800)
+        add(0x80, c >> 6 & 0x3F);
+      else
+        add(0xC0, c >> 6);
+      add(0x80, c & 0x3F);
+    }
+  }
+  return text;
 }
 
 }  // namespace bihive

@@ -2,6 +2,8 @@
 // (data/font, docs/decisions/0019-letters-as-outlines.md).
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,8 +31,13 @@ constexpr double kAscent = 0.76;
 constexpr double kDescent = 0.24;
 constexpr double kCapitalHeight = 0.73;
 
+/// Whether the font has it; glyph_of() then gives no box.
+bool has_glyph(char32_t character);
+
 /// The characters of UTF-8 text. A byte that belongs to no character is U+FFFD.
 std::vector<char32_t> characters_of(std::string_view utf8);
+/// Characters `begin` to before `end` as UTF-8.
+std::string text_of(const std::vector<char32_t>& characters, std::size_t begin, std::size_t end);
 
 /// The embedded file data/font/outlines.bin.
 std::string_view font_outlines();

@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "bihive/base/parse_number.h"
+#include "bihive/geometry/rounding_loss.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/text/text_scanner.h"
@@ -100,10 +101,17 @@ class ColumnsOut {
   // Extended XYZ names the three places together, so its columns follow each other.
   void add_places() {
     single_ = fits_single(spheres_);
-    const auto centre = [this](std::size_t i) { return spheres_.centre(static_cast<std::int64_t>(i)); };
-    add_number("x", "R", [centre](std::size_t i) { return centre(i).x; });
-    add_number("y", "R", [centre](std::size_t i) { return centre(i).y; });
-    add_number("z", "R", [centre](std::size_t i) { return centre(i).z; });
+    const bool all_digits = needs_all_digits(spheres_);
+    const std::string of_ply = single_ ? "float" : "double";
+    for (int axis = 0; axis < 3; ++axis)
+      add(std::string(1, "xyz"[axis]), format_ == SphereFileFormat::ply ? of_ply : "R",
+          [this, axis, all_digits](std::size_t i, std::string& out) {
+            const double value = spheres_.centre(static_cast<std::int64_t>(i))[axis];
+            if (all_digits)
+              fmt::format_to(std::back_inserter(out), "{}", value);
+            else
+              append_number(value, out);
+          });
   }
 
   // Symbols if all are known: a symbol of none would be read as a label.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/title_values.h"
+#include "bihive/render/frame_picture.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/legend.h"
@@ -103,6 +105,24 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
 }
 
+// Why no sphere is to be seen; empty: one is. Passes over the spheres, unless there are very many images.
+std::string why_empty(const Scene& scene, const RenderSettings& settings) {
+  constexpr std::int64_t kMostSeen = 50'000'000;
+  const SphereSet& spheres = scene.spheres;
+  if (spheres.empty() || settings.view == View::tree || spheres.total_size() > kMostSeen) return "";
+  const auto all = [](const std::vector<float>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](float number) { return number == 0; });
+  };
+  if (all(spheres.r())) return "no sphere is seen: all have radius 0";
+  const std::vector<float>& opacity = spheres.attributes().opacity;
+  if (settings.view == View::shaded && !opacity.empty() && all(opacity)) return "no sphere is seen: all have opacity 0";
+  const CanvasArea whole{0, 0, double(settings.width_px), double(settings.height_px)};
+  RenderSettings without_cell = settings;
+  without_cell.cell_lines.reset();
+  if (covers_spheres(spheres, scene.camera, without_cell, whole)) return "";
+  return "no sphere is in the picture: the camera looks past them; without a camera of your own all are in view";
+}
+
 }  // namespace
 
 // The pictures of the tree show the reference tree, also if another engine is faster.
@@ -140,7 +160,12 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (input.scene.spheres.has_images() && has_clips(input.scene))
     fail_setting("clip", " does not cut the copies of " + setting_name("replicate"), "leave one of them out");
   if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
-  if (const std::string shared = shared_colours(input.scene); !shared.empty() && whole == nullptr) warn(shared);
+  if (whole == nullptr) {
+    if (const std::string shared = shared_colours(input.scene); !shared.empty()) warn(shared);
+    if (const std::string unknown = unknown_numbers(input.scene); !unknown.empty()) warn(unknown);
+    if (const std::string why = why_empty(input.scene, settings); !why.empty()) warn(why);
+    for (const std::string& lacking : missing_letters(input.scene, settings.labels)) warn(lacking);
+  }
   return settings;
 }
 

@@ -60,7 +60,7 @@ class Scale {
   }
   double share(double number) const {
     const double place = along(number);
-    if (std::isnan(place)) return place;
+    if (std::isnan(place) || std::isinf(place)) return place;
     if (!(low_ < high_)) return 0.5;
     // Halves, so that no difference overflows.
     return (place / 2 - low_ / 2) / (high_ / 2 - low_ / 2);
@@ -69,7 +69,7 @@ class Scale {
  private:
   double along(double number) const {
     if (!logarithmic_) return number;
-    if (!(number > 0)) return std::numeric_limits<double>::quiet_NaN();
+    if (number <= 0) return -std::numeric_limits<double>::infinity();
     return std::isfinite(number) ? portable_log2(number) : number;
   }
 

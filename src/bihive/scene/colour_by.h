@@ -25,7 +25,7 @@ struct ColourBy {
   std::string attribute;         ///< a name as selections know it, or arithmetic of names: "sqrt(vx^2 + vy^2)"
   std::optional<ColourMap> map;  ///< unset: by category for texts, types and elements, else viridis
   std::optional<std::pair<double, double>> range;  ///< unset: the finite values of the coloured spheres
-  bool logarithmic = false;                        ///< the map runs along the logarithm; numbers <= 0 are unknown
+  bool logarithmic = false;                        ///< the map runs along the logarithm; numbers <= 0 are below it
   ColourChoice nan_colour = std::string("grey");   ///< of spheres whose number is unknown (NaN)
   std::optional<std::pair<double, double>> percentiles = {};  ///< of these values, in place of an open range's ends
   std::optional<double> middle = {};                          ///< the range is widened so that the map's middle is here
@@ -50,8 +50,8 @@ Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const 
 /// map is logarithmic. Nothing: the set has no such numbers.
 std::optional<std::pair<double, double>> number_range(const SphereSet& spheres, const ColourBy& how);
 
-/// The place of a number in a range, 0 to 1 inside of it; 0.5 if the range has no extent. NaN: unknown, or not above 0
-/// on a logarithmic scale.
+/// The place of a number in a range, 0 to 1 inside of it; 0.5 if the range has no extent, -inf for 0 or less on a
+/// logarithmic scale. NaN: unknown.
 double place_in_range(std::pair<double, double> range, bool logarithmic, double number);
 
 }  // namespace bihive

@@ -83,26 +83,38 @@ class KeyCollector {
     if (!attribute_.found()) return;
     if (!used_) spheres_.push_back(id);
     used_ = true;
-    if (how_.range &&
-        !std::isnan(place_in_range(*how_.range, how_.logarithmic, attribute_.number_of(scene_.spheres, id))))
-      return;
-    const double place = how_.range ? std::nan("") : names_.place(id);
+    double place = 0;
+    bool below_logarithms = false;
+    if (how_.range) {
+      const double number = attribute_.number_of(scene_.spheres, id);
+      place = place_in_range(*how_.range, how_.logarithmic, number);
+      below_logarithms = how_.logarithmic && number <= 0;
+      if (!std::isnan(place) && !is_known_) spheres_.push_back(id);
+      is_known_ = is_known_ || !std::isnan(place);
+      if (!std::isnan(place) && !below_logarithms) return;
+    } else {
+      place = names_.place(id);
+    }
     // NaN has no order.
     const auto [position, is_new] = entries_.try_emplace({std::isnan(place), std::isnan(place) ? 0 : place});
     if (!is_new) return;
     spheres_.push_back(id);
     const Vec3f colour = scene_.spheres.attributes().colour[static_cast<std::size_t>(id)];
-    position->second = {how_.range ? "unknown" : names_.name(id),
+    position->second = {below_logarithms ? "0 or less"
+                        : how_.range     ? "unknown"
+                                         : names_.name(id),
                         screen_colour(to_double(colour), scene_.picture.transfer)};
   }
 
   bool used() const { return used_; }
+  bool knows_nothing() const { return how_.range && !is_known_; }
+  const std::string& attribute() const { return how_.attribute; }
   /// The first one, and of each entry the first.
   const std::vector<std::int64_t>& spheres() const { return spheres_; }
   LegendKey key() const {
     LegendKey key;
     key.title = how_.attribute;
-    if (how_.range) key.scale = {how_.map.value_or(ColourMap()), *how_.range, how_.logarithmic};
+    if (how_.range && is_known_) key.scale = {how_.map.value_or(ColourMap()), *how_.range, how_.logarithmic};
     for (const auto& [place, entry] : entries_) key.entries.push_back(entry);
     return key;
   }
@@ -113,6 +125,7 @@ class KeyCollector {
   FoundAttribute attribute_;
   CategoryNames names_;
   bool used_ = false;
+  bool is_known_ = false;                                   // some number of a range
   std::map<std::pair<bool, double>, LegendEntry> entries_;  // the unknown one last
   std::vector<std::int64_t> spheres_;
 };
@@ -145,6 +158,13 @@ std::vector<std::int64_t> spheres_of_legend(const Scene& scene) {
   for (const KeyCollector& collector : collected(scene))
     ids.insert(ids.end(), collector.spheres().begin(), collector.spheres().end());
   return ids;
+}
+
+std::string unknown_numbers(const Scene& scene) {
+  for (const KeyCollector& collector : collected(scene))
+    if (collector.used() && collector.knows_nothing())
+      return "no sphere has a number of " + collector.attribute() + ": all have the colour of unknown numbers";
+  return "";
 }
 
 std::string shared_colours(const Scene& scene) {

@@ -37,6 +37,10 @@ struct LegendKey {
 /// spheres.
 std::vector<LegendKey> legend_of(const Scene& scene);
 
+/// A sentence on an attribute whose numbers are all unknown; empty: there is none. Costs a pass over all spheres that
+/// are coloured by numbers.
+std::string unknown_numbers(const Scene& scene);
+
 /// Spheres that give the legend of all: the first of each entry, in any order.
 std::vector<std::int64_t> spheres_of_legend(const Scene& scene);
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bihive/geometry/rounding_loss.h"
 #include "bihive/scene/scene_file.h"
 #include "bihive/settings/parameter_json.h"
 
@@ -93,12 +94,13 @@ std::string clip_positions(std::uint64_t bits) {
   return positions;
 }
 
-void write_sphere(const Scene& scene, std::int64_t id, std::string& out) {
+void write_sphere(const Scene& scene, std::int64_t id, bool all_digits, std::string& out) {
   const std::size_t i = static_cast<std::size_t>(id);
   const SphereSet& spheres = scene.spheres;
   const SphereAttributes& attributes = spheres.attributes();
   const Vec3d centre = spheres.centre(id);
-  const std::string xyz = coordinate(centre.x) + ", " + coordinate(centre.y) + ", " + coordinate(centre.z);
+  const auto of_axis = [&](int axis) { return all_digits ? number(centre[axis]) : coordinate(centre[axis]); };
+  const std::string xyz = of_axis(0) + ", " + of_axis(1) + ", " + of_axis(2);
   const std::string radius = coordinate(spheres.radius(id));
   const std::int32_t material = scene.material_of_sphere.empty() ? 0 : scene.material_of_sphere[i];
   const bool plain = attributes.colour.empty() && attributes.opacity.empty() && attributes.outline_px.empty() &&
@@ -193,8 +195,9 @@ std::string scene_to_json(const Scene& scene) {
   out += "  \"picture\": " + picture_to_json(scene.picture) + ",\n";
   out += cell_members(scene.spheres);
   out += "  \"spheres\": [\n";
+  const bool all_digits = needs_all_digits(scene.spheres);
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
-    write_sphere(scene, id, out);
+    write_sphere(scene, id, all_digits, out);
     out += id + 1 < scene.spheres.size() ? ",\n" : "\n";
   }
   out += "  ]\n}\n";

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bihive/geometry/lattice.h"
+#include "bihive/io/elements.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/select/attribute_names.h"
 #include "bihive/select/evaluate.h"
@@ -48,6 +49,15 @@ std::string alternatives_to(const SphereSet& spheres, const Expression& test) {
       list += (i == 0 ? "" : ", ") + (texts[i].empty() ? quote("") : printable(texts[i]));
     if (texts.size() > kMostTexts) list += " and " + std::to_string(texts.size() - kMostTexts) + " others";
     return nothing + "are " + list;
+  }
+  if (attribute.is_element()) {
+    std::vector<bool> is_there(256, false);
+    for (std::int64_t id = 0; id < spheres.size(); ++id)
+      is_there[static_cast<std::size_t>(attribute.number_of(spheres, id))] = true;
+    std::string list;
+    for (std::size_t number = 1; number < is_there.size(); ++number)
+      if (is_there[number]) list += (list.empty() ? "" : ", ") + element_symbol(static_cast<int>(number));
+    return list.empty() ? list : nothing + "are " + list;
   }
   double low = 0, high = 0;
   bool any = false;

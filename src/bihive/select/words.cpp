@@ -25,7 +25,7 @@ constexpr int kHydrogen = 1;
 
 Error missing_column(std::string_view word, const std::string& column, const std::string& meaning) {
   return {quote(word) + " needs " + meaning + ", and the input has no " + quote(column), "", 0, 0,
-          "PDB and mmCIF files have it; bihive info says what an input has"};
+          "PDB, mmCIF and GRO files have it; bihive info says what an input has"};
 }
 
 template <class Test>

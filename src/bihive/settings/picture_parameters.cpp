@@ -191,7 +191,7 @@ constexpr std::array kRows{
         .help = "Width of the cell's edges in pixels", .usual = "2", .group = Group::cell}),
     part<&P::cell_lines, &CellLines::colour>({.id = "cell_colour", .kind = colour, .path = "cell_lines.colour",
         .ranks = ParameterRanks::whole,
-        .implies = "cell", .value_name = "COLOUR", .help = "Colour of the cell's edges", .usual = "nearly black",
+        .implies = "cell", .value_name = "COLOUR", .help = "Colour of the cell's edges", .usual = "nearly black; light before a dark background",
         .group = Group::cell}),
     row<&P::transparent>({.id = "transparent", .path = "transparent", .ranks = ParameterRanks::chunks,
         .has_option = false, .in_window = false,

@@ -1,7 +1,9 @@
 // Points and rays against a periodic set: the spheres and all their images.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -97,6 +99,27 @@ class PeriodicImages {
   std::vector<float> x_, y_, z_, r_;
   // Of a set that extends over several cells: all spheres in one cell.
   std::shared_ptr<const WideTree> in_cell_;
+};
+
+/// For rays in chunks on several threads: the first one without an answer, in the order of the rays. Chunks after it
+/// need not be traced.
+class FirstWithoutEnd {
+ public:
+  /// Whether it is a ray before this one.
+  bool is_before(std::int64_t ray) const { return first_ < ray; }
+  /// `in_chunk`: what PeriodicImages returned for the chunk that begins with ray `first`.
+  void take(std::int64_t first, std::int64_t in_chunk) {
+    if (in_chunk == kNothing) return;
+    std::int64_t known = first_;
+    while (first + in_chunk < known && !first_.compare_exchange_weak(known, first + in_chunk)) {
+    }
+  }
+  /// Error: there is one.
+  Status status() const { return first_ == kNone ? Status(Done{}) : Status(PeriodicImages::ray_without_end(first_)); }
+
+ private:
+  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  std::atomic<std::int64_t> first_{kNone};
 };
 
 }  // namespace bihive

@@ -10,6 +10,7 @@
 #include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
 #include "bihive/base/setting_name.h"
+#include "bihive/geometry/lattice.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/assemble/unknown_radii.h"
 #include "bihive/io/assemble/wrapping.h"
@@ -49,6 +50,8 @@ Status apply_radius_options(RawSpheres& raw, const std::string& name, const Read
 Result<Images> apply_cell_options(RawSpheres& raw, const std::string& name, const ReadOptions& options) {
   raw.cell = cell_by_options(raw.cell, options);
   if (options.cell_vectors) raw.rules.push_back("cell: its vectors as asked for");
+  if (options.cell_vectors)
+    if (const std::string why = Lattice::why_none(*raw.cell); !why.empty()) raw.warnings.push_back(name + ": " + why);
   if (options.cell_origin && !raw.cell)
     return Error{"there is no periodic cell that could begin elsewhere", name, 0, 0,
                  "give one with " + setting_name("cell_vectors")};

@@ -13,6 +13,20 @@ namespace {
 
 constexpr double kBackgroundDepth = std::numeric_limits<double>::infinity();
 
+// Edges of a cell are nearly black where nobody chose a colour; before a background that is darker than this, light.
+constexpr double kDarkBackground = 0.18;
+constexpr Vec3d kLightEdges{0.8, 0.8, 0.8};
+
+std::optional<CellLines> cell_lines_of(const Scene& scene, const RenderSettings& settings) {
+  if (settings.view != View::shaded || !settings.cell_lines) return std::nullopt;
+  CellLines lines = *settings.cell_lines;
+  const Vec3d& light = scene.background;
+  const double brightness = 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z;
+  if (lines.colour == CellLines().colour && !settings.transparent && brightness < kDarkBackground)
+    lines.colour = kLightEdges;
+  return lines;
+}
+
 }  // namespace
 
 PostProcessing::PostProcessing(const Scene& scene, const WaveScene& wave_scene, const Tracer& tracer,
@@ -22,8 +36,7 @@ PostProcessing::PostProcessing(const Scene& scene, const WaveScene& wave_scene, 
       tracer_(tracer),
       rays_(rays),
       transparency_(transparency),
-      cell_edges_(scene, settings.view == View::shaded ? settings.cell_lines : std::nullopt, settings.width_px,
-                  settings.height_px) {
+      cell_edges_(scene, cell_lines_of(scene, settings), settings.width_px, settings.height_px) {
   if (settings.view != View::shaded) return;
   outline_ = settings.outline;
   all_outlined_ = settings.outline.has_value();

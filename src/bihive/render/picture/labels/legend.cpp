@@ -20,6 +20,8 @@ constexpr double kSquare = 0.85;
 constexpr double kBetweenKeys = 1.4;
 constexpr double kMostShareOfWidth = 0.45;
 
+constexpr double kMostNameWidth = 12;
+
 constexpr int kMostTicks = 6;
 constexpr std::size_t kMostEntries = 16;
 
@@ -43,8 +45,22 @@ struct PreparedKey {
   }
 };
 
+// A name without its middle, if it is too wide.
+std::string shortened(const std::string& name) {
+  if (text_width(name, 1) <= kMostNameWidth) return name;
+  const std::vector<char32_t> letters = characters_of(name);
+  for (std::size_t kept = letters.size() - 1;; --kept) {
+    const std::size_t first = (2 * kept + 2) / 3;
+    const std::string made =
+        text_of(letters, 0, first) + "\u2026" + text_of(letters, letters.size() - (kept - first), letters.size());
+    if (kept <= 1 || text_width(made, 1) <= kMostNameWidth) return made;
+  }
+}
+
 PreparedKey prepared(const LegendKey& key) {
   PreparedKey ready{key, {}};
+  ready.key.title = shortened(key.title);
+  for (LegendEntry& entry : ready.key.entries) entry.name = shortened(entry.name);
   if (key.scale) ready.ticks = ticks_of(key.scale->range, key.scale->logarithmic, kMostTicks);
   std::vector<LegendEntry>& entries = ready.key.entries;
   if (entries.size() <= kMostEntries) return ready;
