@@ -61,7 +61,8 @@ class EncodedFilm final : public FilmSink {
               "-i",
               "pipe:0",
               "-an"};
-    codec_ = plan.asked.codec.empty() ? default_codec(ending_, plan.fixed.width_px, plan.fixed.height_px) : codec_words(plan.asked.codec);
+    codec_ = plan.asked.codec.empty() ? default_codec(ending_, plan.fixed.width_px, plan.fixed.height_px)
+                                      : codec_words(plan.asked.codec);
     if (film_.existing() != nullptr) find_segments(*film_.existing());
   }
 

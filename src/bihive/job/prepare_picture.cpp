@@ -15,6 +15,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/title_values.h"
+#include "bihive/render/draw_labels.h"
 #include "bihive/render/frame_picture.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"

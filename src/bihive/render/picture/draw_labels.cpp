@@ -1,8 +1,10 @@
 #include "bihive/render/draw_labels.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bihive/base/setting_name.h"
+#include "bihive/image/font.h"
 #include "bihive/render/picture/labels/parts.h"
 #include "bihive/scene/legend.h"
 
@@ -71,6 +73,32 @@ Labels possible_labels(const Scene& scene, const Camera& camera, const RenderSet
     if (!check_labels(scene, camera, alone)) labels.*label = false;
   }
   return labels;
+}
+
+std::vector<std::string> missing_letters(const Scene& scene, const Labels& labels) {
+  std::vector<std::pair<std::string, std::string>> texts;  // and what they are
+  if (!labels.title.empty()) texts.emplace_back("the title", labels.title);
+  if (labels.scale_bar && labels.length_unit) texts.emplace_back("the scale bar", *labels.length_unit);
+  if (labels.legend)
+    for (const LegendKey& key : legend_of(scene)) {
+      texts.emplace_back("the legend", key.title);
+      for (const LegendEntry& entry : key.entries) texts.emplace_back("the legend", entry.name);
+    }
+  std::vector<std::pair<std::string, std::vector<char32_t>>> lacking;
+  for (const auto& [what, text] : texts)
+    for (const char32_t letter : characters_of(text)) {
+      if (has_glyph(letter)) continue;
+      if (lacking.empty() || lacking.back().first != what) lacking.emplace_back(what, std::vector<char32_t>());
+      std::vector<char32_t>& letters = lacking.back().second;
+      if (std::find(letters.begin(), letters.end(), letter) == letters.end()) letters.push_back(letter);
+    }
+  constexpr std::size_t kMostNamed = 8;
+  std::vector<std::string> sentences;
+  for (const auto& [what, letters] : lacking)
+    sentences.push_back(what + " has boxes in place of letters that the font (DejaVu Sans) lacks: " +
+                        text_of(letters, 0, std::min(letters.size(), kMostNamed)) +
+                        (letters.size() > kMostNamed ? " and more" : ""));
+  return sentences;
 }
 
 LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSettings& settings, double dots_per_inch) {
