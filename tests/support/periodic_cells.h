@@ -2,10 +2,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/math/rng.h"
+#include "bihive/wide/periodic_images.h"
+#include "bihive/wide/wide_builder.h"
 
 namespace bihive::test {
 
@@ -19,6 +23,23 @@ inline const std::vector<Cell>& periodic_cells() {
                                        {{}, {Vec3d{4, 0, 0}, Vec3d{0, 3, 0}, Vec3d{0, 0, 5}}, {true, true, false}}};
   return cells;
 }
+
+/// Spheres in a cell, their tree and their images.
+struct PeriodicSet {
+  SphereSet spheres;
+  std::shared_ptr<const WideTree> tree;
+  std::optional<PeriodicImages> images;
+
+  PeriodicSet(const std::vector<Vec3d>& centres, const std::vector<double>& radii, const Cell& cell) {
+    std::vector<double> x, y, z;
+    for (const Vec3d& p : centres) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    spheres = SphereSet::from_world(x, y, z, radii).value();
+    spheres.cell() = cell;
+    WideBuilder builder;
+    tree = builder.build(spheres).value();
+    images = PeriodicImages::of(spheres).value();
+  }
+};
 
 /// A random point of the cell at the origin.
 inline Vec3d point_in(const Cell& cell, SplitMix64& random) {

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "bihive/geometry/ray.h"
@@ -13,7 +11,6 @@
 #include "bihive/select/selection.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/trace/points.h"
-#include "bihive/wide/wide_builder.h"
 #include "support/periodic_cells.h"
 
 namespace bihive {
@@ -21,30 +18,21 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-struct PeriodicSet {
-  SphereSet spheres;
-  std::shared_ptr<const WideTree> tree;
-  std::optional<PeriodicImages> images;
+using test::PeriodicSet;
 
-  PeriodicSet(const std::vector<Vec3d>& centres, double radius, const Cell& cell) {
-    std::vector<double> x, y, z, r;
-    for (std::size_t i = 0; i < centres.size(); ++i) {
-      x.push_back(centres[i].x), y.push_back(centres[i].y), z.push_back(centres[i].z);
-      r.push_back(radius * (1 + double(i % 3)));
-    }
-    spheres = SphereSet::from_world(x, y, z, r).value();
-    spheres.cell() = cell;
-    WideBuilder builder;
-    tree = builder.build(spheres).value();
-    images = PeriodicImages::of(spheres).value();
-  }
-  PointOptions options(DistanceTo to) const {
-    PointOptions options;
-    options.to = to;
-    options.images = images ? &*images : nullptr;
-    return options;
-  }
-};
+// Radii of one, two and three times this number in turn.
+PeriodicSet set_of(const std::vector<Vec3d>& centres, double radius, const Cell& cell) {
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < centres.size(); ++i) radii.push_back(radius * (1 + double(i % 3)));
+  return {centres, radii, cell};
+}
+
+PointOptions options_of(const PeriodicSet& set, DistanceTo to) {
+  PointOptions options;
+  options.to = to;
+  options.images = set.images ? &*set.images : nullptr;
+  return options;
+}
 
 // All images of all spheres, moved by -reach to reach along each periodic vector, within a distance: world units.
 std::vector<wide::NearSphere> all_within(const PeriodicSet& set, Vec3d point, double limit, DistanceTo to, int reach) {
@@ -73,14 +61,14 @@ TEST(PeriodicPoints, AgreeWithAllImages) {
       for (int i = 0; i < 8; ++i)
         points.push_back(test::point_in(cell, random) + (i % 2 == 0 ? 1.0 : -2.0) * cell.vectors[1]);
       points.push_back(centres[0]);
-      const PeriodicSet set(centres, 0.1, cell);
+      const PeriodicSet set = set_of(centres, 0.1, cell);
       ASSERT_TRUE(set.images);
       std::vector<double> xyz;
       for (const Vec3d& p : points) xyz.insert(xyz.end(), {p.x, p.y, p.z});
       const PointSpan span = PointSpan::rows(xyz.data(), static_cast<std::int64_t>(points.size()));
       for (const DistanceTo to : {DistanceTo::centre, DistanceTo::surface}) {
         for (const double limit : {-0.05, 0.0, 0.7, 3.0}) {
-          const SphereLists lists = spheres_within(*set.tree, span, limit, set.options(to)).value();
+          const SphereLists lists = spheres_within(*set.tree, span, limit, options_of(set, to)).value();
           for (std::size_t i = 0; i < points.size(); ++i) {
             std::vector<wide::NearSphere> expected = all_within(set, points[i], limit, to, 8);
             std::sort(expected.begin(), expected.end(), [](const auto& a, const auto& b) {
@@ -96,7 +84,7 @@ TEST(PeriodicPoints, AgreeWithAllImages) {
           }
         }
         for (const std::int64_t most : {1, 5, 40}) {
-          const NearestSpheres nearest = nearest_spheres(*set.tree, span, most, kInf, set.options(to)).value();
+          const NearestSpheres nearest = nearest_spheres(*set.tree, span, most, kInf, options_of(set, to)).value();
           for (std::size_t i = 0; i < points.size(); ++i) {
             std::vector<wide::NearSphere> expected = all_within(set, points[i], kInf, to, 8);
             std::sort(expected.begin(), expected.end());
@@ -114,24 +102,25 @@ TEST(PeriodicPoints, AgreeWithAllImages) {
 
 TEST(PeriodicPoints, EveryAtomOfACrystalHasTwelveNeighbours) {
   // Face-centred cubic: the primitive cell with one atom, and 2 x 2 x 2 cubic cells.
-  const PeriodicSet primitive({Vec3d{}}, 0.1, {{}, {Vec3d{0, 1, 1}, Vec3d{1, 0, 1}, Vec3d{1, 1, 0}}});
+  const PeriodicSet primitive = set_of({Vec3d{}}, 0.1, {{}, {Vec3d{0, 1, 1}, Vec3d{1, 0, 1}, Vec3d{1, 1, 0}}});
   const double origin[3] = {};
   const SphereLists lists =
-      spheres_within(*primitive.tree, PointSpan::rows(origin, 1), 1.5, primitive.options(DistanceTo::centre)).value();
+      spheres_within(*primitive.tree, PointSpan::rows(origin, 1), 1.5, options_of(primitive, DistanceTo::centre))
+          .value();
   EXPECT_EQ(lists.begin[1], 13);  // with the atom itself
   std::vector<Vec3d> centres;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
       for (int k = 0; k < 4; ++k)
         if ((i + j + k) % 2 == 0) centres.push_back({double(i), double(j), double(k)});
-  const PeriodicSet cubic(centres, 0.1, {{}, {Vec3d{4, 0, 0}, Vec3d{0, 4, 0}, Vec3d{0, 0, 4}}});
+  const PeriodicSet cubic = set_of(centres, 0.1, {{}, {Vec3d{4, 0, 0}, Vec3d{0, 4, 0}, Vec3d{0, 0, 4}}});
   std::vector<double> xyz;
   for (const Vec3d& p : centres) xyz.insert(xyz.end(), {p.x, p.y, p.z});
   const PointSpan span = PointSpan::rows(xyz.data(), static_cast<std::int64_t>(centres.size()));
-  const SphereLists near = spheres_within(*cubic.tree, span, 1.5, cubic.options(DistanceTo::centre)).value();
+  const SphereLists near = spheres_within(*cubic.tree, span, 1.5, options_of(cubic, DistanceTo::centre)).value();
   for (std::size_t i = 0; i < centres.size(); ++i) EXPECT_EQ(near.begin[i + 1] - near.begin[i], 13);
   const NearestSpheres thirteen =
-      nearest_spheres(*cubic.tree, span, 14, kInf, cubic.options(DistanceTo::centre)).value();
+      nearest_spheres(*cubic.tree, span, 14, kInf, options_of(cubic, DistanceTo::centre)).value();
   EXPECT_EQ(thirteen.distance[12], std::sqrt(2.0));
   EXPECT_EQ(thirteen.distance[13], 2);
 }
@@ -139,9 +128,9 @@ TEST(PeriodicPoints, EveryAtomOfACrystalHasTwelveNeighbours) {
 TEST(PeriodicPoints, HostileQuestionsEnd) {
   const Cell cell{{}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
   // One sphere lies a million cells away from the others.
-  PeriodicSet set({Vec3d{0.5, 0.5, 0.5}, Vec3d{1e6, 0, 0}}, 0.1, cell);
+  PeriodicSet set = set_of({Vec3d{0.5, 0.5, 0.5}, Vec3d{1e6, 0, 0}}, 0.1, cell);
   const double points[6] = {0, 0, 0, -1e7, 3, 0.5};
-  PointOptions options = set.options(DistanceTo::centre);
+  PointOptions options = options_of(set, DistanceTo::centre);
   const NearestSpheres nearest = nearest_spheres(*set.tree, PointSpan::rows(points, 2), 1, kInf, options).value();
   EXPECT_EQ(nearest.sphere_id, (std::vector<std::int64_t>{1, 1}));
   EXPECT_EQ(nearest.distance[0], 0);
@@ -163,7 +152,7 @@ TEST(PeriodicPoints, HostileQuestionsEnd) {
   EXPECT_TRUE(spheres_within(*set.tree, PointSpan::rows(lost, 1), 3.0, options).value().sphere_id.empty());
   set.spheres.cell() = Cell{};
   EXPECT_FALSE(PeriodicImages::of(set.spheres).value());
-  const PeriodicSet scattered({Vec3d{0.5, 0.5, 0.5}, Vec3d{1e30, 0, 0}}, 0.1, cell);
+  const PeriodicSet scattered = set_of({Vec3d{0.5, 0.5, 0.5}, Vec3d{1e30, 0, 0}}, 0.1, cell);
   EXPECT_FALSE(PeriodicImages::of(scattered.spheres).value());
   EXPECT_EQ(select_spheres(scattered.spheres, "within 2 of index 1").value(), (std::vector<std::uint8_t>{0, 1}));
 }

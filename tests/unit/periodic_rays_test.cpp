@@ -4,15 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
 #include "bihive/math/rng.h"
-#include "bihive/wide/periodic_images.h"
-#include "bihive/wide/wide_builder.h"
 #include "support/periodic_cells.h"
 
 namespace bihive {
@@ -20,28 +16,15 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-struct PeriodicSet {
-  SphereSet spheres;
-  std::shared_ptr<const WideTree> tree;
-  std::optional<PeriodicImages> images;
+using test::PeriodicSet;
 
-  PeriodicSet(const std::vector<Vec3d>& centres, const std::vector<double>& radii, const Cell& cell) {
-    std::vector<double> x, y, z;
-    for (const Vec3d& p : centres) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-    spheres = SphereSet::from_world(x, y, z, radii).value();
-    spheres.cell() = cell;
-    WideBuilder builder;
-    tree = builder.build(spheres).value();
-    images = PeriodicImages::of(spheres).value();
-  }
-  Hit closest(const Ray& ray) const {
-    RayBatch batch;
-    batch.push_back(ray);
-    Hit hit;
-    EXPECT_EQ(images->closest_hits(*tree, batch.span(), {&hit.t, &hit.sphere_id}), kNothing);
-    return hit;
-  }
-};
+Hit closest_hit_of(const PeriodicSet& set, const Ray& ray) {
+  RayBatch batch;
+  batch.push_back(ray);
+  Hit hit;
+  EXPECT_EQ(set.images->closest_hits(*set.tree, batch.span(), {&hit.t, &hit.sphere_id}), kNothing);
+  return hit;
+}
 
 // Every image of every sphere, moved by -reach to reach along each periodic vector.
 std::vector<RayHit> all_hits_of(const PeriodicSet& set, const ScaledRay& scaled, std::int64_t number, int reach) {
@@ -133,7 +116,7 @@ TEST(PeriodicRays, FarImagesAreAsExact) {
   ray.origin = {-1000, -1000, 0};
   ray.direction = {1, 1, 0};
   ray.t_min = 900;
-  const Hit hit = set.closest(ray);
+  const Hit hit = closest_hit_of(set, ray);
   ScaledRay scaled(ray, set.spheres.scale());
   double expected = kInf;
   for (int i = -400; i < 200; ++i)
@@ -156,12 +139,12 @@ TEST(PeriodicRays, ARayLeavesTheImageThatItStartsOn) {
     ray.origin = {2 + image, 1, 1};
     ray.direction = {1, 0, 0};
     ray.leaves = 0;
-    EXPECT_EQ(set.closest(ray).t, 2);
+    EXPECT_EQ(closest_hit_of(set, ray).t, 2);
     ray.direction = {-1, 0, 0};
     ray.inside = true;
-    EXPECT_EQ(set.closest(ray).t, 2);  // the far side
+    EXPECT_EQ(closest_hit_of(set, ray).t, 2);  // the far side
     ray.direction = {1, 0, 0};
-    EXPECT_EQ(set.closest(ray).t, 0);  // it ends where it begins
+    EXPECT_EQ(closest_hit_of(set, ray).t, 0);  // it ends where it begins
   }
 }
 
@@ -208,15 +191,15 @@ TEST(PeriodicRays, ASlabAndAChainEnd) {
   Ray ray;
   ray.origin = {0, 0, 1000};
   ray.direction = {0, 0, -1};
-  EXPECT_FALSE(slab.closest(ray).found());
-  EXPECT_FALSE(chain.closest(ray).found());
+  EXPECT_FALSE(closest_hit_of(slab, ray).found());
+  EXPECT_FALSE(closest_hit_of(chain, ray).found());
   ray.direction = {0.5F, 0.5F, -999.5F};
-  EXPECT_EQ(slab.closest(ray).sphere_id, 0);
+  EXPECT_EQ(closest_hit_of(slab, ray).sphere_id, 0);
   ray.direction = {17.5F, 3.5F, -999.5F};
-  EXPECT_EQ(slab.closest(ray).sphere_id, 0);
-  EXPECT_FALSE(chain.closest(ray).found());
+  EXPECT_EQ(closest_hit_of(slab, ray).sphere_id, 0);
+  EXPECT_FALSE(closest_hit_of(chain, ray).found());
   ray.direction = {17.5F, 0.5F, -999.5F};
-  EXPECT_EQ(chain.closest(ray).sphere_id, 0);
+  EXPECT_EQ(closest_hit_of(chain, ray).sphere_id, 0);
 }
 
 TEST(PeriodicRays, SpheresAllOverAreRefused) {
