@@ -109,7 +109,11 @@ inline void check_written(const SphereSet& spheres, std::size_t choice) {
   require(again.ok() && again->spheres.size() == spheres.size());
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     const Vec3d a = spheres.centre(id), b = again->spheres.centre(id);
-    require(same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z));
+    // Numbers that were rounded about an origin may need none when they are read again. Then rounding about 0 moves
+    // every centre by a harmless share of its radius at most, which is why there is none.
+    const bool is_harmless = spheres.has_origin() && !again->spheres.has_origin() &&
+                             length(a - b) <= 2 * SphereSet::kHarmlessShift * spheres.radius(id);
+    require((same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z)) || is_harmless);
     require(same(spheres.radius(id), again->spheres.radius(id)));
   }
   const auto element_of = [](const SphereSet& set, std::size_t i) {
