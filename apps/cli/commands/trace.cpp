@@ -130,7 +130,7 @@ std::int64_t rays_per_chunk(const Tracer& tracer, std::int64_t rays, std::int64_
   return std::clamp(rays / (workers * kChunksPerThread), kFewestPerChunk, kMostPerChunk);
 }
 
-// The images that rays see: with --periodic alone, as in pictures.
+// The images that rays meet. Without --periodic they meet none, as in pictures.
 std::optional<PeriodicImages> images_for(const SphereSet& spheres, const Tracer& tracer, const TraceOptions& options) {
   if (!options.input.reading.has("periodic")) return std::nullopt;
   if (spheres.has_images())

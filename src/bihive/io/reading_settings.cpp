@@ -119,8 +119,7 @@ std::vector<ReadingSetting> make_rows() {
        .take = [](ReadOptions& o, const std::string& text) { return put(cell_origin_from_text(text), o.cell_origin); },
        .value = [](const ReadOptions& o) { return text_of(vector_json(*o.cell_origin)); }},
       {.id = "periodic",
-       .help = "Files: distances (within, default radii) see the images of the periodic cell; on by itself.\nRays of "
-               "bihive trace see them with it alone",
+       .help = "Files: distances see the images of the periodic cell (usual); rays of bihive trace too",
        .with_chunks = true,
        .take = [](ReadOptions& o, const std::string&) { return put(Result<bool>(true), o.periodic); },
        .value = [](const ReadOptions& o) { return text_of(o.periodic); }},
