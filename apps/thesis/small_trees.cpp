@@ -157,8 +157,8 @@ Json build_as_stated(const Experiment& experiment) {
   return trees;
 }
 
-// What the text says about the colours: that the smallest step of green stands for one gap, which trees show more green
-// than blue, and in which a ray crosses the most gaps.
+// The text's claims about the colours: the smallest step of green is one gap, which trees show more green than blue,
+// and in which tree a ray crosses the most gaps.
 void add_colours(Json& data) {
   double smallest = 1, most = 0;
   std::vector<std::string> green, widest;

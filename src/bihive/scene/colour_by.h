@@ -31,8 +31,8 @@ struct ColourBy {
   std::optional<double> middle = {};                          ///< the range is widened so that the map's middle is here
 };
 
-/// The file that a text for colour_by_from_text() names in place of a map: what has a dot or slash, and is nothing
-/// else. Empty: none. with_map() is the same text with the file's colours (read_colour_map()).
+/// The file name that stands in place of a map in a text for colour_by_from_text(); empty if there is none. A part with
+/// a dot or a slash that is no range, number or map is a file name. with_map() replaces it by colours.
 std::string colour_map_file(std::string_view text);
 std::string with_map(std::string_view text, const std::vector<std::uint32_t>& colours);
 

@@ -42,10 +42,10 @@ class PeriodicImages {
 
   /// ---- Rays ----
   ///
-  /// As those of wide/queries.h, on the caller's thread: about as fast for rays that end in the stored spheres, and 1
-  /// to 4 us for each other image that a ray meets. An image counts under the id of its sphere, so that all_hits() may
-  /// give an id several times. A ray exits the image of `leaves` whose surface is nearest to the ray's origin. They
-  /// return kNothing, or the first ray without an answer: ray_without_end().
+  /// As those of wide/queries.h, on the caller's thread. Rays that end in the stored spheres are about as fast; each
+  /// other image that a ray meets is traversed on its own. Hits on an image have the id of its sphere, so all_hits()
+  /// may return an id several times. A ray exits the image of `leaves` whose surface is nearest to the ray's origin.
+  /// Returns kNothing, or the first ray without an answer: ray_without_end().
 
   std::int64_t closest_hits(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) const;
   std::int64_t occluded(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) const;
@@ -54,7 +54,7 @@ class PeriodicImages {
   /// Cells that a ray passes along one vector, at most. Then it must have hit something, or have left the images of a
   /// set that is not periodic along all three vectors, or be at its t_max.
   static constexpr std::int64_t kMostCells = 16384;
-  /// What to say of such a ray.
+  /// The error for a ray that passes more.
   static Error ray_without_end(std::int64_t ray);
   /// Error: the spheres lie so far apart, or are so large, that more than 4096 images overlap.
   Status check_rays() const;
@@ -107,7 +107,7 @@ class FirstWithoutEnd {
  public:
   /// Whether it is a ray before this one.
   bool is_before(std::int64_t ray) const { return first_ < ray; }
-  /// `in_chunk`: what PeriodicImages returned for the chunk that begins with ray `first`.
+  /// `in_chunk` is the return value of PeriodicImages for the chunk whose first ray is `first`.
   void take(std::int64_t first, std::int64_t in_chunk) {
     if (in_chunk == kNothing) return;
     std::int64_t known = first_;

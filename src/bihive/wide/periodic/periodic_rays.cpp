@@ -78,7 +78,7 @@ struct ImageTest {
 
 }  // namespace
 
-// Of the images of the sphere that the ray leaves, the one whose surface is nearest to the ray's origin.
+// Finds the image that the ray exits: the one of `leaves` whose surface is nearest to the ray's origin.
 void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
   if (ray.leaves < 0 || ray.leaves >= static_cast<std::int64_t>(x_.size())) return;
   const auto i = static_cast<std::size_t>(ray.leaves);
@@ -101,7 +101,7 @@ void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
   });
 }
 
-// Where the ray is no farther from the directions of the lattice than the spheres are.
+// Clips the ray, across the lattice's directions, to the reach of the spheres.
 Interval PeriodicImages::near_spheres(const ScaledRay& ray) const {
   Interval part{ray.t_min, ray.t_max};
   const Vec3d middle = 0.5 * (lo_ + hi_);
@@ -121,8 +121,9 @@ Interval PeriodicImages::near_spheres(const ScaledRay& ray) const {
   return part;
 }
 
-// Where the ray may meet spheres of an image, by their shares. The same bits whenever it is asked. The padding is above
-// the rounding of shares, and below half of that of Lattice::images_within(), which finds the images.
+// The interval in which the ray may meet spheres of an image, in shares of the cell. It depends on the ray and the
+// image alone. Its padding exceeds the rounding of shares, and is below half of that of Lattice::images_within(), which
+// finds the images.
 Interval PeriodicImages::in_image(const ScaledRay& ray, Vec3d share, Vec3d speed, const ImageCounts& counts) const {
   Interval part{-kInfinity, kInfinity};
   const double largest = largest_coordinate(ray.origin) + largest_;

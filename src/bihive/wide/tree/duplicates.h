@@ -1,4 +1,4 @@
-// Hits of spheres that coincide: the tree holds one of each pile (WideTree::piles).
+// Hits of coincident spheres, of which the tree holds one alone (WideTree::piles).
 #pragma once
 
 #include <algorithm>
