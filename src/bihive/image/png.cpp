@@ -73,16 +73,18 @@ bool write_rows(png_structp png, const std::uint8_t* rows, int count, std::size_
   return true;
 }
 
-bool write_end(png_structp png, png_infop info) {
+bool write_end(png_structp png, png_infop info, png_text* text, int texts) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
+  if (texts > 0) png_set_text(png, info, text, texts);
   png_write_end(png, info);
   return true;
 }
 
-bool read_header(png_structp png, png_infop info, PngState* state) {
+bool read_header(png_structp png, png_infop info, PngState* state, bool as_rgb8) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, state, take_bytes);
   png_read_info(png, info);
+  if (!as_rgb8) return true;
   png_set_expand(png);
   png_set_strip_16(png);
   png_set_strip_alpha(png);
@@ -116,6 +118,21 @@ class PngEncoder::Implementation {
   ~Implementation() { png_destroy_write_struct(&png_, &info_); }
 
   Status begin(const PngHead& head, const PngText& text) {
+    std::vector<png_text> chunks = chunks_of(text);
+    return status_of(info_ != nullptr &&
+                     write_head(png_, info_, &state_, &head, chunks.data(), static_cast<int>(chunks.size())));
+  }
+  Status add(const std::uint8_t* rows, int count) { return status_of(write_rows(png_, rows, count, row_bytes_)); }
+  Status finish(const PngText& text) {
+    std::vector<png_text> chunks = chunks_of(text);
+    return status_of(write_end(png_, info_, chunks.data(), static_cast<int>(chunks.size())));
+  }
+  std::string take_bytes() { return std::exchange(state_.bytes, std::string()); }
+  std::size_t row_bytes() const { return row_bytes_; }
+
+ private:
+  // Valid as long as the text.
+  static std::vector<png_text> chunks_of(const PngText& text) {
     std::vector<png_text> chunks(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
       chunks[i].compression = PNG_TEXT_COMPRESSION_NONE;
@@ -123,15 +140,9 @@ class PngEncoder::Implementation {
       chunks[i].text = const_cast<png_charp>(text[i].second.c_str());  // NOLINT: libpng reads it only
       chunks[i].text_length = text[i].second.size();
     }
-    return status_of(info_ != nullptr &&
-                     write_head(png_, info_, &state_, &head, chunks.data(), static_cast<int>(chunks.size())));
+    return chunks;
   }
-  Status add(const std::uint8_t* rows, int count) { return status_of(write_rows(png_, rows, count, row_bytes_)); }
-  Status finish() { return status_of(write_end(png_, info_)); }
-  std::string take_bytes() { return std::exchange(state_.bytes, std::string()); }
-  std::size_t row_bytes() const { return row_bytes_; }
 
- private:
   Status status_of(bool good) const {
     if (!good && png_ == nullptr) return Error{"PNG: there is not enough memory", "", 0, 0, ""};
     if (!good) return Error{std::string("PNG: ") + state_.message, "", 0, 0, ""};
@@ -169,8 +180,8 @@ Status PngEncoder::add(const PngPixels& rows) {
 Status PngEncoder::add(const std::uint8_t* rows, int count) {
   return implementation_->add(rows, count);
 }
-Status PngEncoder::finish() {
-  return implementation_->finish();
+Status PngEncoder::finish(const PngText& text) {
+  return implementation_->finish(text);
 }
 std::string PngEncoder::take_bytes() {
   return implementation_->take_bytes();
@@ -180,10 +191,12 @@ namespace {
 
 Result<std::string> encode_rows(const std::uint8_t* rows, int width, int height, int channels, int bits,
                                 const PngText& text, double dots_per_inch) {
-  Result<PngEncoder> encoder = PngEncoder::begin(width, height, channels, bits, text, dots_per_inch);
+  PngText before, after;
+  for (const auto& chunk : text) (chunk.first == kLateKeyword ? after : before).push_back(chunk);
+  Result<PngEncoder> encoder = PngEncoder::begin(width, height, channels, bits, before, dots_per_inch);
   if (!encoder) return encoder.error();
   if (Status status = encoder->add(rows, height); !status) return status.error();
-  if (Status status = encoder->finish(); !status) return status.error();
+  if (Status status = encoder->finish(after); !status) return status.error();
   return encoder->take_bytes();
 }
 
@@ -206,34 +219,68 @@ Status write_png(const std::string& path, const Image& image, const PngText& tex
   return write_file(path, *bytes);
 }
 
-Result<PngFile> read_png(const std::string& path) {
+namespace {
+
+// Reads size and form first; place(png, info) gives the memory of the rows, or null for a form that is not wanted.
+template <class Place>
+Status read_png_with(const std::string& path, bool as_rgb8, const Place& place, PngText& text) {
   Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
   PngState state;
   state.bytes = std::move(*bytes);
-
-  // Read size and form first, then the rows into memory of our own.
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, on_error, on_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-  bool good = info != nullptr && read_header(png, info, &state);
-  PngFile file;
+  bool good = info != nullptr && read_header(png, info, &state, as_rgb8);
+  bool known = true;
   if (good) {
-    file.image.width = static_cast<int>(png_get_image_width(png, info));
-    file.image.height = static_cast<int>(png_get_image_height(png, info));
-    const std::size_t row_bytes = 3 * static_cast<std::size_t>(file.image.width);
-    file.image.rgb.resize(row_bytes * static_cast<std::size_t>(file.image.height));
-    std::vector<png_bytep> rows(static_cast<std::size_t>(file.image.height));
-    for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = file.image.rgb.data() + y * row_bytes;
-    good = read_rows(png, info, rows.data());
+    std::uint8_t* const memory = place(png, info);
+    known = memory != nullptr;
+    std::vector<png_bytep> rows(known ? png_get_image_height(png, info) : 0);
+    for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = memory + y * png_get_rowbytes(png, info);
+    if (known) good = read_rows(png, info, rows.data());
   }
-  if (good) {
+  if (good && known) {
     png_textp chunks = nullptr;
     int count = 0;
     png_get_text(png, info, &chunks, &count);
-    for (int i = 0; i < count; ++i) file.text.emplace_back(chunks[i].key, chunks[i].text);
+    for (int i = 0; i < count; ++i) text.emplace_back(chunks[i].key, chunks[i].text);
   }
   png_destroy_read_struct(&png, &info, nullptr);
   if (!good) return Error{std::string("is not a readable PNG: ") + state.message, path, 0, 0, ""};
+  if (!known) return Error{"is not a PNG as bihive writes them: RGB or RGBA of 8 or 16 bits", path, 0, 0, ""};
+  return Done{};
+}
+
+}  // namespace
+
+Result<PngFile> read_png(const std::string& path) {
+  PngFile file;
+  const auto place = [&file](png_structp png, png_infop info) {
+    file.image.width = static_cast<int>(png_get_image_width(png, info));
+    file.image.height = static_cast<int>(png_get_image_height(png, info));
+    file.image.rgb.resize(3 * static_cast<std::size_t>(file.image.width) * static_cast<std::size_t>(file.image.height));
+    return file.image.rgb.data();
+  };
+  if (Status status = read_png_with(path, /*as_rgb8=*/true, place, file.text); !status) return status.error();
+  return file;
+}
+
+Result<PngFileOfPixels> read_png_pixels(const std::string& path) {
+  PngFileOfPixels file;
+  PngPixels& pixels = file.pixels;
+  const auto place = [&pixels](png_structp png, png_infop info) -> std::uint8_t* {
+    const int colours = png_get_color_type(png, info);
+    pixels.bits = png_get_bit_depth(png, info);
+    if ((colours != PNG_COLOR_TYPE_RGB && colours != PNG_COLOR_TYPE_RGB_ALPHA) || pixels.bits < 8 ||
+        png_get_interlace_type(png, info) != PNG_INTERLACE_NONE)
+      return nullptr;
+    pixels.width = static_cast<int>(png_get_image_width(png, info));
+    pixels.height = static_cast<int>(png_get_image_height(png, info));
+    pixels.channels = colours == PNG_COLOR_TYPE_RGB ? 3 : 4;
+    pixels.bytes.resize(pixels.row_bytes() * static_cast<std::size_t>(pixels.height));
+    return pixels.bytes.data();
+  };
+  if (Status status = read_png_with(path, /*as_rgb8=*/false, place, file.text); !status) return status.error();
   return file;
 }
 

@@ -16,6 +16,9 @@ namespace bihive {
 /// Keyword and text of the file's tEXt chunks (Latin-1 keyword of 1 to 79 characters).
 using PngText = std::vector<std::pair<std::string, std::string>>;
 
+/// The keyword of a text about the pixels, which comes after them.
+inline const std::string kLateKeyword = "bihive";
+
 /// The whole file in memory.
 Result<std::string> encode_png(const Image& image, const PngText& text);
 
@@ -35,8 +38,8 @@ class PngEncoder {
   /// The next rows, of the width and form of begin().
   Status add(const PngPixels& rows);
   Status add(const std::uint8_t* rows, int count);
-  /// After the last row.
-  Status finish();
+  /// After the last row. `text`: more of it, for what is known only now.
+  Status finish(const PngText& text = {});
   /// The bytes of the file since the last call, to be written behind the earlier ones.
   std::string take_bytes();
 
@@ -55,5 +58,13 @@ struct PngFile {
   PngText text;
 };
 Result<PngFile> read_png(const std::string& path);
+
+/// The pixels of a PNG that write_png() or PngEncoder made, as they are, and its text chunks. Error: it has another
+/// form.
+struct PngFileOfPixels {
+  PngPixels pixels;
+  PngText text;
+};
+Result<PngFileOfPixels> read_png_pixels(const std::string& path);
 
 }  // namespace bihive
