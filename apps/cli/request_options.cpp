@@ -9,11 +9,11 @@ namespace bihive::cli {
 namespace {
 
 // The request records which settings of a picture were given.
-void note(PictureRequest& request, const std::string& id) {
-  request.given.push_back(id);
+void note(PictureRequest& request, const std::string& id, const std::string& value) {
+  request.given.push_back({id, value});
 }
 template <class Request>
-void note(Request&, const std::string&) {}
+void note(Request&, const std::string&, const std::string&) {}
 
 // Those among the others that the command has.
 void exclude_others(CLI::App& app, const std::string& id, const std::vector<std::string>& others) {
@@ -31,7 +31,7 @@ void add_option_of(CLI::App& app, const RequestOption<Request>& row, Request& re
   const auto take = [&row, &request, name](const std::string& text) {
     if (const Status status = row.take(request, text); !status)
       throw CLI::ValidationError(name, row.repeatable ? status.error().to_string() : status.error().message);
-    note(request, row.id);
+    note(request, row.id, text);
   };
   const std::string help =
       row.help.find('\n') == std::string::npos && row.theme == OptionTheme::reading ? in_lines(row.help) : row.help;

@@ -254,7 +254,7 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     const Rendered rendered = value_or_fail(render(input.scene, own ? *own : *scene->tracer, settings));
     const Transfer curve = settings.view == View::shaded ? input.scene.picture.transfer : Transfer::none;
     PngPixels pixels = png_pixels_from_film(rendered.film, curve, 8, threads);
-    draw_labels(pixels, input.scene, settings, request.dots_per_inch);
+    draw_labels(pixels, input.scene, settings);
     write_rgba(pixels, rgba);
     return kDone;
   });

@@ -24,8 +24,8 @@ class Labels(ProgramTest):
         # A camera of one's own, so that labels get no room.
         look = ["--colour-by", "charge", "--projection", "orthographic", "--eye", "0,0,20", "--look-at", "0,0,0"]
         plain = self.picture(*look)
-        corners = {"--title=Title": (80, 0, 160, 20), "--axes": (0, 100, 60, 160), "--scale-bar": (150, 130, 240, 160),
-                   "--legend": (180, 20, 240, 140)}
+        corners = {"--title=Title": (80, 0, 160, 25), "--axes": (0, 80, 90, 160), "--scale-bar": (150, 120, 240, 160),
+                   "--legend": (150, 10, 240, 150)}
         for option, (x0, y0, x1, y1) in corners.items():
             labelled = self.picture(*look, option)
             changed = [(x, y) for y in range(160) for x in range(240) if plain[y][x] != labelled[y][x]]
@@ -96,7 +96,7 @@ class Labels(ProgramTest):
             self.assertEqual(self.said(*options), "")
 
     def test_edges_of_a_cell_are_seen_before_any_background(self):
-        cell = ["--cell-vectors", "10,0,0,0,10,0,0,0,10", "--cell-origin=-5,-5,-5", "--cell", "--fog", "0"]
+        cell = ["--cell-vectors", "10,0,0,0,10,0,0,0,10", "--cell-origin=-5,-5,-5", "--cell", "--fog", "0", "--line-unit", "px"]
         for background in ("black", "#101020", "white"):
             pixels = self.picture(*cell, "--background", background)
             behind = pixels[2][2]

@@ -31,7 +31,8 @@ class Table(ProgramTest):
             "flag": lambda row: not row["default"],
             "whole": lambda row: row["default"] + 1,
             "number": lambda row: min(row["most"], 0.75),
-            "choice": lambda row: row["names"][-1],
+            # Points need the pixels per inch of a print.
+            "choice": lambda row: row["names"][-1 if row["id"] != "line_unit" else 1],
             "text": lambda row: "A title",
             "colour": lambda row: "#204060",
         }
@@ -48,7 +49,7 @@ class Table(ProgramTest):
                 whole, _, key = row["path"].partition(".")
                 picture = {whole: {key: value} if key else {} if whole == "ambient_occlusion" else value}
                 # A part of something whose presence has a number of its own is set with it.
-                extra = {"fog": ["--fog", "0.5"], "outline": ["--outline", "1"]}.get(whole, []) if key and row["id"] not in ("fog",) else []
+                extra = {"fog": ["--fog", "0.5"], "outline": ["--outline", "1", "--line-unit", "px"]}.get(whole, []) if key and row["id"] not in ("fog",) else []
                 with open(self.path("scene.json"), "w") as file:
                     json.dump({"bihive_scene": 2, "picture": picture, "spheres": {"file": self.path("spheres.csv")}}, file)
                 by_file = self.hash(self.path("scene.json"), *size)

@@ -173,6 +173,18 @@ const std::vector<Effect>& effects() {
          w.settings.ambient_occlusion = AmbientOcclusion{8, 16};
        }},
       {"opacity_once_of_mirrors_and_glass", [](Wanted& w) { put_opacity(w, 0.5F); }, balls},
+      {"opacity_of_first_surfaces",
+       [](Wanted& w) {
+         put_opacity(w, 0.3F);
+         w.settings.opacity_rule = OpacityRule::first;
+         w.settings.ambient_occlusion = AmbientOcclusion{8, 16};
+       }},
+      {"opacity_of_first_surfaces_of_mirrors_and_glass",
+       [](Wanted& w) {
+         put_opacity(w, 0.5F);
+         w.settings.opacity_rule = OpacityRule::first;
+       },
+       balls},
       {"refracting_glass_lets_light_pass",
        [](Wanted& w) {
          w.settings.shadows = true;

@@ -104,7 +104,7 @@ TEST(Spread, spheres_that_coincide_touch_or_lie_in_each_other) {
     settings.width_px = 60;
     settings.height_px = 50;
     settings.samples_per_pixel = 2;
-    for (const OpacityRule rule : {OpacityRule::each_surface, OpacityRule::once}) {
+    for (const OpacityRule rule : {OpacityRule::each_surface, OpacityRule::once, OpacityRule::first}) {
       settings.opacity_rule = rule;
       settings.ambient_occlusion = {2 * unit, 7};
       const Rendered expected = render(scene, Tracer::build(scene, Engine::wide).value(), settings).value();

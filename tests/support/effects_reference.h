@@ -40,9 +40,7 @@ class EffectsReference {
   Vec3d applied(double x, double y, LensPlace lens, Vec3d light) const {
     const Seen here = seen(x, y, lens);
     if (settings_.outline && here.id >= 0 && is_outlined(x, y, lens, here)) {
-      const double pixel = length(pixels_.right()) * (pixels_.parallel() ? 1 : here.depth);
-      const double widths = scene_.spheres.radius(here.id) / (pixel * settings_.outline->width_px);
-      const auto line = static_cast<double>(static_cast<float>(std::clamp((widths - 2) / 4, 0.0, 1.0)));
+      const auto line = static_cast<double>(static_cast<float>(std::min(width_of_line(here), 1.0)));
       const double seen_of_line = line * passing(x, y, lens);
       if (line > 0) light = (1 - seen_of_line) * light + seen_of_line * settings_.outline->colour;
     }
@@ -83,8 +81,15 @@ class EffectsReference {
     return {hit.t * dot(to_double(ray.direction), pixels_.forward()), hit.id};
   }
 
+  // In pixels.
+  double width_of_line(Seen here) const {
+    const double pixel = length(pixels_.right()) * (pixels_.parallel() ? 1 : here.depth);
+    return std::min(settings_.outline->width_px * line_unit_px(settings_),
+                    scene_.spheres.radius(here.id) / (6 * pixel));
+  }
+
   bool is_outlined(double x, double y, LensPlace lens, Seen here) const {
-    const double width = settings_.outline->width_px;
+    const double width = std::max(width_of_line(here), 1.0);
     const double limit = here.depth + settings_.outline->step * scene_.spheres.radius(here.id);
     for (int dy = -16; dy <= 16; ++dy)
       for (int dx = -16; dx <= 16; ++dx) {

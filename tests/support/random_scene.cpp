@@ -103,8 +103,9 @@ RenderSettings random_settings(std::uint64_t seed) {
   settings.recursion = 1 + static_cast<int>(seed % 7);
   settings.shadows = seed % 4 != 0;
   settings.light_points = 1 + static_cast<int>(seed % 4);
-  if (seed % 3 != 1) settings.opacity_rule = OpacityRule::once;
+  if (seed % 3 != 1) settings.opacity_rule = seed % 2 == 0 ? OpacityRule::once : OpacityRule::first;
   if (seed % 5 == 0) settings.outline = Outline{1 + 0.5 * static_cast<double>(seed % 3), 0.3, {0.2, 0, 0.1}};
+  if (seed % 10 == 5) settings.line_unit = LineUnit::picture;
   if (seed % 5 < 2) settings.fog = Fog{0.1, 0.8, 0.7};
   if (seed % 7 < 4) settings.tone = {0.3 * static_cast<double>(seed % 6) - 0.5, static_cast<ToneCurve>(seed % 3)};
   if (seed % 3 == 0) settings.ambient_occlusion = {seed % 2 == 0 ? 3.0 : AmbientOcclusion{}.distance, 5};

@@ -13,7 +13,7 @@ namespace {
 
 RenderOptions given(std::vector<std::string> names) {
   RenderOptions options;
-  options.given = std::move(names);
+  for (std::string& name : names) options.given.push_back({std::move(name), ""});
   return options;
 }
 

@@ -48,7 +48,9 @@ PngPixels labelled(const Scene& scene, const RenderSettings& settings, int chann
   const std::uint8_t empty = channels == 4 ? 0 : 255;
   pixels.bytes.assign(pixels.row_bytes() * static_cast<std::size_t>(part.height()), empty);
   EXPECT_TRUE(check_labels(scene, settings).ok());
-  draw_labels(pixels, scene, settings, dpi);
+  RenderSettings printed = settings;
+  printed.dots_per_inch = dpi;
+  draw_labels(pixels, scene, printed);
   return pixels;
 }
 

@@ -127,6 +127,61 @@ TEST(Outlines, parts_and_threads_have_the_bits_of_the_whole) {
     for (int x = tile.x0; x < tile.x1; ++x) EXPECT_EQ(part.at(x - tile.x0, y - tile.y0), whole.at(x, y));
 }
 
+// The light that lines take away, as a share of the picture.
+double ink_of(Scene scene, double scale) {
+  scene.picture.width_px = static_cast<int>(kWidth * scale);
+  scene.picture.height_px = static_cast<int>(kHeight * scale);
+  scene.picture.samples_per_pixel = 16;
+  const auto light_of = [&scene] {
+    const Film film = drawn(scene);
+    double light = 0;
+    for (const Vec3f& pixel : film.radiance) light += double(pixel.x) + double(pixel.y) + double(pixel.z);
+    return light / static_cast<double>(film.radiance.size());
+  };
+  const double with = light_of();
+  scene.picture.outline.reset();
+  return light_of() - with;
+}
+
+TEST(Outlines, lines_in_units_of_the_picture_take_the_same_share_of_it_in_every_size) {
+  Scene scene = two_balls();
+  scene.picture.line_unit = LineUnit::picture;
+  scene.picture.outline = Outline{16, 0.1, {0, 0, 0}};  // 1.3 pixels at 60 rows
+  const double ink = ink_of(scene, 4);
+  EXPECT_GT(ink, 0.02);
+  EXPECT_NEAR(ink_of(scene, 10), ink, 0.05 * ink);
+  EXPECT_NEAR(ink_of(scene, 0.5), ink, 0.3 * ink);  // thinner than a pixel
+  scene.picture.line_unit = LineUnit::px;
+  EXPECT_LT(ink_of(scene, 10), 0.6 * ink_of(scene, 4));
+}
+
+TEST(Outlines, a_wider_line_takes_more_light_up_to_a_share_of_its_sphere) {
+  Scene scene = two_balls();
+  double before = 0;
+  for (const double width : {1.0, 2.0, 3.0, 4.0}) {
+    scene.picture.outline = Outline{width, 0.1, {0, 0, 0}};
+    const double ink = ink_of(scene, 1);
+    EXPECT_GT(ink, before) << width;
+    before = ink;
+  }
+  scene.picture.outline = Outline{5, 0.1, {0, 0, 0}};  // radii of 25 pixels: lines of 25 / 6
+  const double most = ink_of(scene, 1);
+  scene.picture.outline = Outline{16, 0.1, {0, 0, 0}};
+  EXPECT_EQ(ink_of(scene, 1), most);
+}
+
+TEST(Outlines, points_count_pixels_of_the_print) {
+  RenderSettings settings;
+  EXPECT_EQ(line_unit_px(settings), 1);
+  settings.line_unit = LineUnit::pt;
+  settings.dots_per_inch = 300;
+  EXPECT_EQ(line_unit_px(settings), 300.0 / 72);
+  settings.line_unit = LineUnit::picture;
+  settings.width_px = 1440;
+  settings.height_px = 3000;
+  EXPECT_EQ(line_unit_px(settings), 2);
+}
+
 TEST(Outlines, numbers_make_groups_too) {
   Result<LoadedScene> loaded = load_scene("x,y,z,r,mol\n0,0,0,1,7\n1,0,0,1,\n2,0,0,1,3\n3,0,0,1,7\n", "a.csv");
   ASSERT_TRUE(loaded.ok());

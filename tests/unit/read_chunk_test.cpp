@@ -140,7 +140,7 @@ TEST_F(ReadChunkTest, CameraAndColoursAreThoseOfTheWholeSet) {
         take_whole_range(chunk.file.spheres, taken, ranks);
         const Scene scene = scene_of_spheres(std::move(chunk.file), path).scene;
         const Camera camera =
-            frame_whole_picture(scene, chunk.whole_bounds, side_of(from), {30, projection}, settings, 0, ranks);
+            frame_whole_picture(scene, chunk.whole_bounds, side_of(from), {30, projection}, settings, ranks);
         static std::mutex one_at_a_time;
         const std::lock_guard lock(one_at_a_time);
         expect_equal(camera, expected);

@@ -81,6 +81,45 @@ TEST(Transparency, layers_need_no_recursion) {
   EXPECT_EQ(light_along(scene_of(balls), {0, 0, 10}, kAhead).x, std::pow(0.75, 10));
 }
 
+TEST(Transparency, of_one_opacity_the_first_surface_alone_counts) {
+  std::vector<Ball> balls;
+  for (int i = 0; i < 10; ++i) balls.push_back({{0, 0, -3.0 * i}, 1, 0.25F, {1, 0, 0}});
+  balls.push_back({{0, 0, -100}, 1, 1, {0, 0, 1}});
+  Scene scene = scene_of(balls);
+  scene.picture.opacity_rule = OpacityRule::first;
+  EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead), (Vec3d{0.25, 0, 0.75}));
+  // A ray that starts inside of one leaves it, and that is all.
+  EXPECT_EQ(light_along(scene, {0, 0, 0}, kAhead), (Vec3d{0.25, 0, 0.75}));
+
+  // Another opacity is a body of its own; within a sixteenth it is the same.
+  scene.spheres.attributes().opacity[2] = 0.5F;
+  scene.spheres.attributes().opacity[3] = 0.27F;
+  EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead), (Vec3d{0.25 + 0.75 * 0.5, 0, 0.75 * 0.5}));
+  EXPECT_EQ(opacity_class(1), kOpacityClasses - 1);
+  EXPECT_EQ(opacity_class(1e-9), 0);
+  EXPECT_EQ(opacity_class(0.75), 12);
+}
+
+TEST(Transparency, light_is_weakened_by_the_first_surface_alone_and_not_tinted) {
+  Scene scene = scene_of({{{0, 0, 0}, 1, 0.25F, {1, 0, 0}}, {{0, 0, -3}, 1, 0.25F, {1, 0, 0}}});
+  Ray ray;
+  ray.origin = {0, 0, 10};
+  ray.direction = kAhead;
+  scene.picture.opacity_rule = OpacityRule::once;
+  EXPECT_EQ(parts_of(scene).to_light->share(ray), (Vec3d{0.5625, 0.5625 * 0.5625, 0.5625 * 0.5625}));
+  scene.picture.opacity_rule = OpacityRule::first;
+  EXPECT_EQ(parts_of(scene).to_light->share(ray), (Vec3d{0.75, 0.75, 0.75}));
+
+  // Refracting spheres are bodies each.
+  scene.spheres.attributes().opacity.clear();
+  scene.materials[0].transmissive = 0.5;
+  scene.materials[0].refraction_index = 1.5;
+  const Vec3d of_glass = parts_of(scene).to_light->share(ray);
+  scene.picture.opacity_rule = OpacityRule::once;
+  EXPECT_EQ(of_glass, parts_of(scene).to_light->share(ray));
+  EXPECT_LT(of_glass.x, 0.3);
+}
+
 TEST(Transparency, faint_rays_are_not_followed) {
   // A mirror before the eye shows the white background, and nothing else is seen.
   for (const double reflective : {kFaintestRay, std::nextafter(kFaintestRay, 0.0)}) {
@@ -299,8 +338,13 @@ TEST(Transparency, crossings_are_those_of_all_spheres) {
       r.push_back(unit * 0.25 * static_cast<double>(random.next() % 5));
       passing.push_back(random.next() % 3 == 0 ? 0 : random.next_double());
     }
+    std::vector<std::int8_t> classes;
+    if (round % 2 == 1)
+      for (const double share : passing)
+        classes.push_back(static_cast<std::int8_t>(random.next() % 4 == 0 ? -1 : opacity_class(share)));
     const SphereSet spheres = SphereSet::from_world(x, y, z, r).value();
-    const auto divided = TransparentSpheres::divide(spheres, passing, Engine::wide, 1).value();
+    const auto divided =
+        TransparentSpheres::divide(spheres, passing, Engine::wide, 1, nullptr, {}, nullptr, -1, classes).value();
     for (int k = 0; k < 200; ++k) {
       Ray ray;
       ray.origin = to_float(unit * Vec3d{5 * random.next_double(), 2, 5 * random.next_double()});
@@ -322,6 +366,14 @@ TEST(Transparency, crossings_are_those_of_all_spheres) {
       }
       std::sort(expected.begin(), expected.end(),
                 [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t < b.t : a.id < b.id; });
+      std::vector<int> crossed;
+      const auto is_of_crossed_class = [&](const Crossing& crossing) {
+        const int its_class = classes.empty() ? -1 : classes[static_cast<std::size_t>(crossing.id)];
+        if (its_class >= 0 && std::find(crossed.begin(), crossed.end(), its_class) != crossed.end()) return true;
+        crossed.push_back(its_class);
+        return false;
+      };
+      expected.erase(std::remove_if(expected.begin(), expected.end(), is_of_crossed_class), expected.end());
       std::vector<Crossing> found;
       divided->find_crossings(ray, found);
       ASSERT_EQ(found.size(), expected.size());

@@ -103,7 +103,8 @@ TEST(ViewerJson, effects_and_lens_come_back_exactly) {
   EXPECT_THAT(error_of(R"({"outline_px": 17})"), HasSubstr("/outline_px"));
   EXPECT_THAT(error_of(R"({"exposure": "bright"})"), HasSubstr("/exposure: expected a number from -32 to 32"));
   EXPECT_THAT(error_of(R"({"tone": "loud"})"), HasSubstr("/tone: expected one of none, soft, filmic"));
-  EXPECT_THAT(error_of(R"({"opacity_rule": 1})"), HasSubstr("/opacity_rule: expected one of each_surface, once"));
+  EXPECT_THAT(error_of(R"({"opacity_rule": 1})"),
+              HasSubstr("/opacity_rule: expected one of each_surface, once, first"));
   EXPECT_THAT(error_of(R"({"legend": "on"})"), HasSubstr("/legend: expected true or false"));
   EXPECT_THAT(error_of(R"({"length_unit": 1})"), HasSubstr("/length_unit: expected a text or null"));
   EXPECT_THAT(error_of(R"({"camera": {"aperture": "wide"}})"), HasSubstr("/camera/aperture: expected a number"));

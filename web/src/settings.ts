@@ -8,11 +8,12 @@ export interface PictureSettings {
   ao: boolean;
   ao_distance: number | null;
   ao_directions: number;
-  opacity_rule: 'each_surface' | 'once';
+  opacity_rule: 'each_surface' | 'once' | 'first';
   light_points: number;
   outline_px: number;
   outline_step: number;
   outline_colour: [number, number, number] | string;
+  line_unit: 'px' | 'picture' | 'pt';
   fog: number;
   fog_start: number;
   fog_end: number;

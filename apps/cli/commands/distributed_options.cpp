@@ -12,7 +12,7 @@ Result<ReadingByRanks> reading_by_ranks(const RenderOptions& options) {
   const bool by_value =
       options.input.reading.options().frame == 0 && (!options.focus || std::holds_alternative<double>(*options.focus));
   ReadingByRanks reading = by_value && options.film.empty() ? ReadingByRanks::chunks : ReadingByRanks::whole;
-  for (const std::string& id : options.given) {
+  for (const auto& [id, value] : options.given) {
     const RequestOption<PictureRequest>* const row = picture_option(id);
     const ParameterRanks ranks = row != nullptr ? row->ranks : ParameterRanks::refused;
     if (ranks == ParameterRanks::refused)

@@ -55,9 +55,8 @@ LoadedPicture load_chunk(const RenderOptions& options, Style& style, Communicato
   });
   whole.frame = [&options, &ranks, bounds = whole.bounds](const Scene& scene, const Side& side, const Lens& lens,
                                                           const RenderSettings& settings) {
-    return settings.view == View::tree
-               ? frame_picture(scene, side, lens, settings)  // refuse() says so
-               : frame_whole_picture(scene, bounds, side, lens, settings, options.dots_per_inch, ranks);
+    return settings.view == View::tree ? frame_picture(scene, side, lens, settings)  // refuse() says so
+                                       : frame_whole_picture(scene, bounds, side, lens, settings, ranks);
   };
   return loaded;
 }

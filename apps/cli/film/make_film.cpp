@@ -48,7 +48,7 @@ class PixelsInMemory final : public PictureFile {
     const Transfer curve = settings.view == View::shaded ? picture_.input.scene.picture.transfer : Transfer::none;
     PngPixels rows = png_pixels_from_film(film, curve, bits(), settings.threads);
     settings.crop = part;
-    draw_labels(rows, picture_.input.scene, settings, picture_.options.dots_per_inch);
+    draw_labels(rows, picture_.input.scene, settings);
     if (pixels_.height == 0) {
       pixels_ = std::move(rows);
       return Done{};

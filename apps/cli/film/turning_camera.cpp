@@ -47,7 +47,7 @@ Camera camera_around(const Input& input, const Camera& camera, const RenderOptio
   const Vec3d offset = camera.eye - camera.look_at;
   const Side side{offset / length(offset), camera.up};
   const double fov_deg = options.fov_deg.value_or(input.scene.camera.fov_deg);
-  const Insets insets = insets_of_labels(input.scene, camera, settings, options.dots_per_inch);
+  const Insets insets = insets_of_labels(input.scene, camera, settings);
   Camera around =
       frame_spheres(ball, side, {fov_deg, camera.projection}, settings.width_px, settings.height_px, insets);
   around = enlarged(around, options.zoom.value_or(1));

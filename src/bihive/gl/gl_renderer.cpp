@@ -327,14 +327,14 @@ class GlRenderer::Implementation {
   // Which properties of scene and settings affect the light of samples?
   void find_effects() {
     const bool shaded = settings_.view == View::shaded;
-    layers_ = (shaded || settings_.view == View::recursion) && settings_.opacity_rule == OpacityRule::once &&
+    layers_ = (shaded || settings_.view == View::recursion) && settings_.opacity_rule != OpacityRule::each_surface &&
               scene_.lets_light_through();
     border_ = 0;
     if (shaded && (settings_.outline || scene_.has_own_lines())) {
       double widest = std::max(double(scene_.widest_outline_px()), settings_.outline ? settings_.outline->width_px : 0);
       if (scene_.has_creases()) widest = std::max(widest, Outline().width_px);
-      widest *= settings_.outline_scale;
-      border_ = widest >= 1 ? static_cast<int>(std::ceil(widest)) : 0;
+      widest = std::min(widest * line_unit_px(settings_) * settings_.line_scale, kWidestLinePx);
+      border_ = widest > 0 ? static_cast<int>(std::max(widest, 1.0)) : 0;
     }
     LightWork work;
     if (shaded) {
@@ -487,6 +487,7 @@ class GlRenderer::Implementation {
     program.set("first_hits", kUnitOfFirstHits);
     program.set("recursion", settings_.recursion);
     program.set("shadows", settings_.shadows);
+    program.set("first_surfaces", settings_.opacity_rule == OpacityRule::first);
     program.set("faintest_ray", layers_ && scene_.is_passed_straight() ? float(kFaintestRay) : 0);
     program.set("without_background", settings_.transparent);
     program.set("view", settings_.view == View::normal ? 0 : settings_.view == View::distance ? 1 : 2);
@@ -521,7 +522,7 @@ class GlRenderer::Implementation {
     program.set("border", border_);
     program.set("picture_outline_px", settings_.outline ? float(outline.width_px) : 0);
     program.set("has_creases", scene_.has_creases());
-    program.set("outline_scale", float(settings_.outline_scale));
+    program.set("line_unit_px", float(line_unit_px(settings_) * settings_.line_scale));
     program.set("outline_step", float(outline.step));
     program.set("outline_colour", to_float(outline.colour));
     const bool fog = settings_.fog && fog_depths_.first < fog_depths_.second;

@@ -114,19 +114,32 @@ void add_parameters(Rows& rows, ParameterGroup group, OptionTheme theme) {
     if (parameter.group == group && parameter.has_option) add_parameter(rows, parameter, theme);
 }
 
+Done set_size(PictureRequest& request, PictureSize size) {
+  request.picture.set("width_px", size.width_px);
+  request.picture.set("height_px", size.height_px);
+  return {};
+}
+
+// Size and pixels per inch may come in any order.
+Status set_print_size(PictureRequest& request) {
+  if (!request.print_size || request.dots_per_inch == 0) return Done{};
+  const Result<PictureSize> size = size_of_print(*request.print_size, request.dots_per_inch);
+  return size ? Status(set_size(request, *size)) : Status(size.error());
+}
+
 void add_picture(Rows& rows) {
   rows.insert(
       rows.end(),
       {{.id = "size",
         .value_name = "WxH",
-        .help = "Pixels (1280x720)",
+        .help = "Pixels (1280x720), or with pixels per inch a size in print: 8.5x6cm; cm, mm, in, pt",
         .ranks = kChunks,
         .take = [](PictureRequest& request, const std::string& text) -> Status {
-          const Result<PictureSize> size = size_from(text);
+          const auto size = size_or_print_size_from(text);
           if (!size) return size.error();
-          request.picture.set("width_px", size->width_px);
-          request.picture.set("height_px", size->height_px);
-          return Done{};
+          if (const PictureSize* const pixels = std::get_if<PictureSize>(&*size)) return set_size(request, *pixels);
+          request.print_size = std::get<PrintSize>(*size);
+          return set_print_size(request);
         }},
        {.id = "crop",
         .value_name = "X0,Y0,X1,Y1",
@@ -160,12 +173,15 @@ void add_picture(Rows& rows) {
                             .take = into(&PictureRequest::bits, bits_from)},
                            {.id = "dpi",
                             .value_name = "N",
-                            .help = "Pixels per inch in print, as a note in the file",
+                            .help = "Pixels per inch in print: for letters, lines in points, and a note in the file",
                             .ranks = kChunks,
                             .in_window = false,
-                            .take = into(&PictureRequest::dots_per_inch, [](const std::string& text) {
-                              return number_from_text(text, 0, kMostDotsPerInch, /*open=*/true);
-                            })}});
+                            .take = [](PictureRequest& request, const std::string& text) -> Status {
+                              const Result<double> dots = number_from_text(text, 0, kMostDotsPerInch, /*open=*/true);
+                              if (!dots) return dots.error();
+                              request.dots_per_inch = *dots;
+                              return set_print_size(request);
+                            }}});
 }
 
 void add_style(Rows& rows) {
@@ -228,7 +244,7 @@ void add_camera(Rows& rows) {
         .take = into(&PictureRequest::up, vector_from)},
        {.id = "fov",
         .value_name = "DEG",
-        .help = "Angle along the shorter side (30)",
+        .help = "Angle along the shorter side (30; less in pictures over twice as wide as high)",
         .theme = kTheme,
         .ranks = kChunks,
         .take = into(&PictureRequest::fov_deg,
@@ -517,7 +533,8 @@ void take_setting(PictureRequest& request, const std::string& id, const std::str
                near.empty() ? std::string() : "did you mean " + setting_name(near) + "?");
   }
   const auto is_given = [&request](const std::string& other) {
-    return std::find(request.given.begin(), request.given.end(), other) != request.given.end();
+    return std::any_of(request.given.begin(), request.given.end(),
+                       [&other](const GivenSetting& one) { return one.id == other; });
   };
   if (!row->repeatable && is_given(id)) fail_setting(id, " is given more than once");
   for (const Row& other : picture_options())
@@ -526,7 +543,7 @@ void take_setting(PictureRequest& request, const std::string& id, const std::str
         fail_setting(other.id, " excludes " + setting_name(excluded));
   if (const Status status = row->take(request, value); !status)
     fail_setting(id, ": " + status.error().message, status.error().hint);
-  request.given.push_back(id);
+  request.given.push_back({id, value});
 }
 
 void take_words(PictureRequest& request, const std::vector<std::string>& words) {

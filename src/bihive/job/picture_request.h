@@ -44,6 +44,11 @@ struct FixedByFilm {
 /// The value of `background` for a transparent picture.
 inline const std::string kNoBackground = "none";
 
+/// An option as given: "light_points" and "12".
+struct GivenSetting {
+  std::string id, value;
+};
+
 /// Unset: the scene's value.
 struct PictureRequest {
   InputOptions input;
@@ -59,6 +64,7 @@ struct PictureRequest {
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
   std::optional<std::int64_t> bits;       ///< 8 or 16
   double dots_per_inch = 0;               ///< 0: not stated
+  std::optional<PrintSize> print_size;    ///< with `dots_per_inch` the size in `picture`
   std::optional<Vec3d> eye, look_at, up;
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;
@@ -68,7 +74,7 @@ struct PictureRequest {
   std::optional<double> aperture;  ///< world units, at least 0
   std::optional<Focus> focus;      ///< world units, 0: the camera's target; or the spheres in focus
   std::optional<FixedByFilm> fixed;
-  std::vector<std::string> given;  ///< the ids of all options given: "light_points"
+  std::vector<GivenSetting> given;  ///< all options; repeatable ones in their order
 };
 
 }  // namespace bihive

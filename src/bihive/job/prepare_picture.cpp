@@ -69,6 +69,10 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
     fail_setting("crop",
                  fmt::format(" ends outside the picture of {} x {} pixels", settings.width_px, settings.height_px),
                  "give the size of the whole picture by " + setting_name("size"));
+  if (request.print_size && request.dots_per_inch == 0)
+    fail_setting("size", " in print needs the pixels per inch", "add " + setting_name("dpi") + " 300");
+  if (settings.line_unit == LineUnit::pt && request.dots_per_inch == 0)
+    fail_setting("line_unit", " pt needs the pixels per inch of the print", "add " + setting_name("dpi") + " 300");
   if (user.has("length_unit") && !settings.labels.scale_bar)
     fail_setting("length_unit", " is for the scale bar, and the picture has none",
                  "add " + setting_name("scale_bar") + ", or leave it out");
@@ -78,6 +82,7 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   if (user.is_on("cell") && request.view != View::shaded)
     fail_setting("cell", " draws on the shaded picture alone", "leave out " + setting_name("view"));
   settings.view = request.view;
+  settings.dots_per_inch = request.dots_per_inch;
   settings.threads = static_cast<int>(request.threads);
   if (request.background && !settings.transparent)
     scene.background = *colour_from(*request.background, scene.picture.transfer);
@@ -106,9 +111,21 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
 }
 
+constexpr std::int64_t kMostSeen = 50'000'000;  // spheres and images, for a question about all of them
+
+// Insides of spheres are dark; empty: none is seen.
+std::string dark_insides(const Scene& scene, const RenderSettings& settings) {
+  if (settings.view != View::shaded || scene.spheres.total_size() > kMostSeen) return "";
+  const std::int64_t count = spheres_around_eye(scene.spheres, scene.camera, settings);
+  if (count == 0) return "";
+  const bool parallel = scene.camera.projection == Projection::orthographic;
+  return fmt::format("{} {} sphere{}, and the inside of a sphere is dark: move the eye back{}",
+                     parallel ? "the plane of an orthographic eye cuts" : "the eye is inside", count,
+                     count == 1 ? "" : "s", parallel ? ", which changes no size" : "");
+}
+
 // Why no sphere is to be seen; empty: one is. Passes over the spheres, unless there are very many images.
 std::string why_empty(const Scene& scene, const RenderSettings& settings) {
-  constexpr std::int64_t kMostSeen = 50'000'000;
   const SphereSet& spheres = scene.spheres;
   if (spheres.empty() || settings.view == View::tree || spheres.total_size() > kMostSeen) return "";
   const auto all = [](const std::vector<float>& numbers) {
@@ -165,6 +182,8 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
     if (const std::string shared = shared_colours(input.scene); !shared.empty()) warn(shared);
     if (const std::string unknown = unknown_numbers(input.scene); !unknown.empty()) warn(unknown);
     if (const std::string why = why_empty(input.scene, settings); !why.empty()) warn(why);
+    if (request.eye && !is_of_film)
+      if (const std::string dark = dark_insides(input.scene, settings); !dark.empty()) warn(dark);
     for (const std::string& lacking : missing_letters(input.scene, settings.labels)) warn(lacking);
   }
   return settings;

@@ -1,5 +1,7 @@
 #include "bihive/job/values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,6 +12,7 @@
 #include "bihive/bih/tree.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/select/selection.h"
+#include "bihive/settings/picture_effects.h"
 
 namespace bihive {
 namespace {
@@ -48,6 +51,23 @@ std::optional<Vec3d> three_numbers(std::string_view text) {
   if (numbers.size() != 3) return std::nullopt;
   const Vec3d v{numbers[0], numbers[1], numbers[2]};
   return is_finite(v) ? std::optional(v) : std::nullopt;
+}
+
+// A number, and the inches of the unit after it; 0: none.
+struct Length {
+  double number = 0, unit_in = 0;
+};
+Length length_in(std::string_view text) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"cm", 1 / 2.54}, {"mm", 1 / 25.4}, {"in", 1}, {"pt", 1 / kPointsPerInch}};
+  Length length;
+  for (const auto& [name, inches] : kUnits)
+    if (text.size() > name.size() && text.substr(text.size() - name.size()) == name) {
+      length.unit_in = inches;
+      text.remove_suffix(name.size());
+    }
+  length.number = whole<double>(text).value_or(0);
+  return length;
 }
 
 }  // namespace
@@ -92,6 +112,32 @@ Result<PictureSize> size_from(const std::string& text) {
       return PictureSize{*width, *height};
   }
   return unexpected("WIDTHxHEIGHT in pixels, each from 1 to 65535", text);
+}
+
+Result<std::variant<PictureSize, PrintSize>> size_or_print_size_from(const std::string& text) {
+  if (const Result<PictureSize> pixels = size_from(text)) return std::variant<PictureSize, PrintSize>(*pixels);
+  const std::size_t times = text.find('x');
+  if (times != std::string::npos) {
+    const Length width = length_in(std::string_view(text).substr(0, times));
+    const Length height = length_in(std::string_view(text).substr(times + 1));
+    const double inches = width.unit_in > 0 ? width.unit_in : height.unit_in;
+    if (width.number > 0 && height.number > 0 && height.unit_in > 0)
+      return std::variant<PictureSize, PrintSize>(PrintSize{width.number * inches, height.number * height.unit_in});
+  }
+  return unexpected("WIDTHxHEIGHT in pixels, each from 1 to 65535, or in print, such as 8.5x6cm (cm, mm, in, pt)",
+                    text);
+}
+
+Result<PictureSize> size_of_print(const PrintSize& print, double dots_per_inch) {
+  constexpr double kLargest = 65535;
+  const double width = std::round(print.width_in * dots_per_inch);
+  const double height = std::round(print.height_in * dots_per_inch);
+  if (width >= 1 && height >= 1 && width <= kLargest && height <= kLargest)
+    return PictureSize{static_cast<int>(width), static_cast<int>(height)};
+  return Error{fmt::format("a picture of {:g} x {:g} inches at {:g} pixels per inch has {:.0f} x {:.0f} pixels; each "
+                           "side has 1 to 65535",
+                           print.width_in, print.height_in, dots_per_inch, width, height),
+               "", 0, 0, ""};
 }
 
 Result<Tile> crop_from(const std::string& text) {

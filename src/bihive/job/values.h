@@ -34,6 +34,17 @@ Result<Turn> turn_from(const std::string& text);
 /// "1280x720", each side 1 to 65535.
 Result<PictureSize> size_from(const std::string& text);
 
+/// A size in print, both sides above 0.
+struct PrintSize {
+  double width_in, height_in;
+};
+
+/// The same, or a size in print: "8.5cmx6cm" or "8.5x6cm", also in mm, in and pt.
+Result<std::variant<PictureSize, PrintSize>> size_or_print_size_from(const std::string& text);
+
+/// The pixels of a size in print. Error: a side has none, or more than 65535.
+Result<PictureSize> size_of_print(const PrintSize& print, double dots_per_inch);
+
 /// "X0,Y0,X1,Y1", whole numbers from 0 to 65535 with X0 < X1 and Y0 < Y1.
 Result<Tile> crop_from(const std::string& text);
 

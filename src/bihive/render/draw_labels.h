@@ -28,15 +28,14 @@ std::vector<std::string> missing_letters(const Scene& scene, const Labels& label
 struct LabelAreas {
   std::optional<CanvasArea> title, legend, scale_bar, axes;
 };
-LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                       double dots_per_inch = 0);
+LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
 /// Draws settings.labels over the pixels that settings.crop (or the whole picture) holds. check_labels() must succeed.
-/// Letters grow with the picture's shorter side; with `dots_per_inch` above 0 they have 8 points in print, within
-/// limits. They are dark on light backgrounds and light on dark ones, and stand in a seam of the background's colour
-/// (white, where the background is transparent), so that they are readable above spheres and on any page.
-/// The pixels depend on nothing but the arguments, and a crop's equal those of the whole picture.
-void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings, double dots_per_inch = 0);
+/// Letters grow with the picture's shorter side; with settings.dots_per_inch above 0 they have 8 points in print,
+/// within limits. They are dark on light backgrounds and light on dark ones, and stand in a seam of the background's
+/// colour (white, where the background is transparent), so that they are readable above spheres and on any page. The
+/// pixels depend on nothing but the arguments, and a crop's equal those of the whole picture.
+void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings);
 
 /// The world's length of one pixel of an orthographic picture.
 double length_of_pixel(const Camera& camera, int width_px, int height_px);

@@ -12,20 +12,22 @@ namespace bihive {
 
 /// The scene from this side, as large as the picture of these settings allows: the spheres that clips leave, with the
 /// edges of the cell if those are drawn, or in View::tree the drawing of the tree. Labels that would cover spheres get
-/// a side of the picture for themselves. `dots_per_inch`: as for draw_labels().
-Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings,
-                     double dots_per_inch = 0);
+/// a side of the picture for themselves.
+Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings);
 
 /// The camera of frame_picture(), where somebody else knows all spheres: `framed` is the camera with room for these
 /// insets, `covers` tells whether an area of its picture may cover a sphere.
-Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings, double dots_per_inch,
+Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings,
                            const std::function<Camera(const Insets&)>& framed,
                            const std::function<bool(const Camera&, const CanvasArea&)>& covers);
 bool covers_spheres(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings,
                     const CanvasArea& area);
 
+/// How many spheres in view begin behind the eye and end before it, so that the picture shows their insides: the eye is
+/// inside of them; in orthographic pictures, the plane where rays start.
+std::int64_t spheres_around_eye(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings);
+
 /// The sides that the labels of such a picture need if all of it is full of spheres.
-Insets insets_of_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                        double dots_per_inch = 0);
+Insets insets_of_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
 }  // namespace bihive

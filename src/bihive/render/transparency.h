@@ -1,4 +1,4 @@
-// Spheres that let light straight through, apart from those that end a ray: OpacityRule::once
+// Spheres that let light straight through, apart from those that end a ray: OpacityRule::once and OpacityRule::first
 // (settings/opacity_rule.h).
 #pragma once
 
@@ -45,18 +45,18 @@ class TransparentSpheres {
   /// engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. `tints`: the
   /// colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. `of_images`: the scene, if
   /// images have colours of their own (scene/image_colours.h); null: they have those of the stored spheres. `first`: as
-  /// for Tracer::build(). The spheres and that scene must outlive it. Error: not enough memory for a tree.
-  static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
-                                                                  Engine engine, int threads,
-                                                                  std::shared_ptr<const CutSet> cuts = nullptr,
-                                                                  std::vector<Vec3d> tints = {},
-                                                                  const Scene* of_images = nullptr,
-                                                                  std::int64_t first = -1);
+  /// for Tracer::build(). `classes`: of each sphere its opacity_class(), of which a ray crosses the first alone; -1: it
+  /// is in none; empty: no sphere is in one. The spheres and that scene must outlive it. Error: not enough memory for a
+  /// tree.
+  static Result<std::shared_ptr<const TransparentSpheres>> divide(
+      const SphereSet& spheres, std::vector<double> passing, Engine engine, int threads,
+      std::shared_ptr<const CutSet> cuts = nullptr, std::vector<Vec3d> tints = {}, const Scene* of_images = nullptr,
+      std::int64_t first = -1, std::vector<std::int8_t> classes = {});
 
   /// The same where other processes hold the spheres: `scene` knows those that were seen so far. `to_eye`: for rays
   /// that see, else for rays that ask for light. Both must outlive it.
   static std::shared_ptr<const TransparentSpheres> remote(const Scene& scene, RemoteEngine& remote, bool to_eye,
-                                                          bool has_tints);
+                                                          bool has_tints, OpacityRule rule);
 
   double passing(std::int64_t id) const { return seen_ != nullptr ? passing_of_seen(id) : passing_[stored(id)]; }
   bool has_tints() const { return has_tints_; }
@@ -71,10 +71,11 @@ class TransparentSpheres {
   bool is_transparent(std::int64_t id) const { return id >= 0 && passing(id) > 0; }
 
   Hit closest_opaque(const Ray& ray) const;
-  /// All crossings of the ray's segment, by t and then by id.
+  /// All crossings of the ray's segment, by t and then by id; of a class the first.
   void find_crossings(const Ray& ray, std::vector<Crossing>& found) const;
-  /// What arrives at the ray's end: 0 behind an opaque sphere, else the product of what the crossed spheres let
-  /// through, in the order of the crossings, times the product of their tints.
+  /// What arrives at the ray's end: 0 behind an opaque sphere, else the product of what the crossed spheres in no class
+  /// let through, in the order of the crossings, and of what the first of each class lets through, in the order of the
+  /// classes, times the product of their tints.
   Vec3d share(const Ray& ray) const;
 
   /// Many rays at a time. Each ray's answer goes to its place, all crossings to one list: by ray, t and id. hides: 1
@@ -82,6 +83,8 @@ class TransparentSpheres {
   void closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
   void hides(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
   void find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
+  /// The shares of rays that no opaque sphere hides, one for each ray.
+  void find_shares(const RaySpan& rays, RayOrder order, Vec3d* shares) const;
 
  private:
   std::size_t stored(std::int64_t id) const {
@@ -90,6 +93,8 @@ class TransparentSpheres {
   }
 
   Vec3d tint_of(const Scene& scene, std::int64_t id) const;
+  int class_of(std::int64_t id) const;  // where spheres are remote; else -1
+  void keep_first_of_classes(std::vector<RayHit>& found) const;
   double passing_of_seen(std::int64_t id) const;
 
   bool has_tints_ = false;
@@ -98,7 +103,14 @@ class TransparentSpheres {
   const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
   const Scene* seen_ = nullptr;       // of the spheres that were seen; null: all are here
   bool to_eye_ = false;               // where they are remote
+  bool has_classes_ = false;          // the same
   std::shared_ptr<const RayEngine> opaque_, transparent_;
+  // The other transparent ones, a class each. `share`: of all its spheres; 0: they differ.
+  struct Class {
+    std::shared_ptr<const RayEngine> engine;
+    double share = 0;
+  };
+  std::vector<Class> of_classes_;
 };
 
 /// The parts of a scene's set for one picture.

@@ -163,10 +163,15 @@ std::optional<Vec3f> number_category_colour(double number, Transfer transfer) {
   return as_seen(type_colour(static_cast<std::int32_t>(std::floor(number))), transfer);
 }
 
+Vec3f colour_of_element(const std::vector<Vec3f>& colours, int element) {
+  const auto i = static_cast<std::size_t>(element);
+  return i < colours.size() ? colours[i] : element_colour(element);
+}
+
 // A colour for each category: texts in their order of appearance, whole numbers as they are.
 Result<ColourBy> colour_by_category(const SphereSet& spheres, const ColourBy& how, const FoundAttribute& attribute,
                                     const std::vector<std::uint8_t>& mask, Transfer transfer,
-                                    std::vector<Vec3f>& colours) {
+                                    std::vector<Vec3f>& colours, const std::vector<Vec3f>& element_colours) {
   const Result<Vec3f> unknown = linear_colour(how.nan_colour, transfer);
   if (!unknown) return unknown.error();
   for (std::size_t i = 0; i < colours.size(); ++i) {
@@ -174,7 +179,7 @@ Result<ColourBy> colour_by_category(const SphereSet& spheres, const ColourBy& ho
     const double number = attribute.has_numbers() ? attribute.number_of(spheres, static_cast<std::int64_t>(i))
                                                   : 1.0 + attribute.texts->text_of_sphere[i];
     if (attribute.is_element() && !how.map)
-      colours[i] = as_seen(element_colour(static_cast<int>(number)), transfer);
+      colours[i] = as_seen(colour_of_element(element_colours, static_cast<int>(number)), transfer);
     else
       colours[i] = number_category_colour(number, transfer).value_or(*unknown);
   }
@@ -266,7 +271,7 @@ std::optional<std::pair<double, double>> number_range(const SphereSet& spheres, 
 }
 
 Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
-                           Transfer transfer, std::vector<Vec3f>& colours) {
+                           Transfer transfer, std::vector<Vec3f>& colours, const std::vector<Vec3f>& element_colours) {
   BIHIVE_CHECK_EQ(mask.size(), colours.size());
   const Result<FoundAttribute> found = find_numbers(spheres, how.attribute);
   if (!found) return found.error();
@@ -278,7 +283,7 @@ Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const 
   if (!categorical && !by_number)
     return colour_by_error("\"" + how.attribute + "\" holds texts, and this map needs numbers",
                            "leave the map out, or take okabe-ito");
-  return categorical ? colour_by_category(spheres, how, attribute, mask, transfer, colours)
+  return categorical ? colour_by_category(spheres, how, attribute, mask, transfer, colours, element_colours)
                      : colour_by_number(spheres, how, attribute, mask, transfer, colours);
 }
 

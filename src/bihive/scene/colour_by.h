@@ -42,9 +42,11 @@ Result<ColourBy> colour_by_from_text(const std::string& text);
 
 /// Sets `colours` (one for each sphere) where the mask is not 0. Numbers outside the range have the colour of its end.
 /// Returns what was done: of a continuous map, its name and its range, also where `how` left them open; of categories,
-/// no range. Error: the set lacks the attribute, no number is known, or the range has no extent that the map can show.
+/// no range. `element_colours`: as Scene::element_colours. Error: the set lacks the attribute, no number is known, or
+/// the range has no extent that the map can show.
 Result<ColourBy> colour_by(const SphereSet& spheres, const ColourBy& how, const std::vector<std::uint8_t>& mask,
-                           Transfer transfer, std::vector<Vec3f>& colours);
+                           Transfer transfer, std::vector<Vec3f>& colours,
+                           const std::vector<Vec3f>& element_colours = {});
 
 /// The smallest and the greatest number of the attribute that colour_by() would take for an open range, above 0 if the
 /// map is logarithmic. Nothing: the set has no such numbers.

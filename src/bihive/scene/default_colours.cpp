@@ -50,6 +50,7 @@ bool colours_atoms(const std::optional<AtomColours>& how, const SphereSet& spher
 void take_default_colours(Scene& scene, std::string_view format, const Style* style) {
   if (format == "PDB" || format == "PQR" || format == "mmCIF" || format == "GRO") scene.length_unit = "\u00C5";
   const ElementScheme scheme = style != nullptr ? style->element_colours : ElementScheme::jmol;
+  scene.element_colours = element_colours_of(scheme);
   const std::string_view attribute = colour_spheres(scene.spheres, scheme);
   if (attribute.empty()) {
     if (style != nullptr && style->colour_by && scene.spheres.attributes().colour.empty())

@@ -72,13 +72,23 @@ Result<ElementColours> read_element_colours(std::string_view text, const std::st
 Status recolour_elements(Scene& scene, const ElementColours& colours) {
   SphereAttributes& attributes = scene.spheres.attributes();
   if (attributes.element.empty()) return Error{"the input has no elements", "", 0, 0, ""};
+  if (scene.element_colours.empty()) scene.element_colours = element_colours_of(ElementScheme::jmol);
+  for (std::size_t number = 0; number < colours.size(); ++number)
+    if (colours[number]) scene.element_colours[number] = *colours[number];
+
+  const bool of_input = scene.coloured_by.empty();
   for (std::size_t i = 0; i < attributes.colour.size(); ++i) {
     const std::uint8_t element = attributes.element[i];
     const bool usual = std::any_of(kElementSchemes.begin(), kElementSchemes.end(), [&](const auto& scheme) {
       return attributes.colour[i] == element_colour(element, scheme.second);
     });
-    if (usual && element < colours.size() && colours[element]) attributes.colour[i] = *colours[element];
+    if ((usual || !of_input) && element < colours.size()) attributes.colour[i] = scene.element_colours[element];
   }
+  if (of_input) return Done{};
+  ColourBy by_element;
+  by_element.attribute = "element";
+  scene.coloured_by = {by_element};
+  scene.coloured_by_of_sphere.clear();
   return Done{};
 }
 

@@ -42,7 +42,8 @@ class LookedAt {
 
   Status operator()(const ColourBy& action) {
     take_colours();
-    const Result<ColourBy> done = colour_by(scene_.spheres, action, mask_, scene_.picture.transfer, colours_);
+    const Result<ColourBy> done =
+        colour_by(scene_.spheres, action, mask_, scene_.picture.transfer, colours_, scene_.element_colours);
     if (!done) return done.error();
     set_meaning(static_cast<std::int32_t>(scene_.coloured_by.size() + meanings_.size()));
     meanings_.push_back(*done);

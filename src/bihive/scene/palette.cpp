@@ -91,6 +91,13 @@ Vec3f element_colour(int atomic_number, ElementScheme scheme) {
   return (scheme == ElementScheme::jmol ? jmol : soft)[known ? static_cast<std::size_t>(atomic_number) : 0];
 }
 
+std::vector<Vec3f> element_colours_of(ElementScheme scheme) {
+  constexpr int kHeaviest = 118;
+  std::vector<Vec3f> colours;
+  for (int number = 0; number <= kHeaviest; ++number) colours.push_back(element_colour(number, scheme));
+  return colours;
+}
+
 Vec3f type_colour(std::int32_t type, ElementScheme scheme) {
   static const std::array<Vec3f, kTypes> bright = linear_colours(kTypeColours);
   static const std::array<Vec3f, kTypes> soft = soft_types(bright);

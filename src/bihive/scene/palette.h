@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/math/vec3.h"
@@ -16,6 +17,9 @@ inline const Names<ElementScheme> kElementSchemes{{"jmol", ElementScheme::jmol},
 
 /// Linear RGB of a chemical element by atomic number (0 or unknown: pink).
 Vec3f element_colour(int atomic_number, ElementScheme scheme = ElementScheme::jmol);
+
+/// Those of all elements, by atomic number from 0 (unknown) to 118.
+std::vector<Vec3f> element_colours_of(ElementScheme scheme);
 
 /// Linear RGB of a particle type: different for forty numbers in a row, of which the first eight differ most. Any
 /// integer. jmol: the colours of the map okabe-ito; soft: greyer ones.

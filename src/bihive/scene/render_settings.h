@@ -1,6 +1,7 @@
 // The view of a scene and the quality of its picture, for every renderer.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "bihive/image/film.h"
@@ -15,8 +16,9 @@ enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 
 /// The settings of a picture, and those of a renderer alone.
 struct RenderSettings : PictureSettings {
-  /// Multiplies the widths of outlines; below one pixel they are left out. For a preview in another size. Above 0.
-  double outline_scale = 1;
+  /// Multiplies the widths of lines, for a preview in another size; 0: no outlines and creases.
+  double line_scale = 1;
+  double dots_per_inch = 0;  ///< of the picture in print, for letters and for lines in points; 0: not stated
   View view = View::shaded;
   /// Only these pixels of the picture are drawn, with the same bits as in the whole picture: at least one, inside it.
   std::optional<Tile> crop;
@@ -26,6 +28,18 @@ struct RenderSettings : PictureSettings {
 /// The drawn pixels of the whole picture.
 inline Tile drawn_pixels(const RenderSettings& settings) {
   return settings.crop.value_or(Tile{0, 0, settings.width_px, settings.height_px});
+}
+
+/// The pixels of a line of width 1, without `line_scale`.
+inline double line_unit_px(const RenderSettings& settings) {
+  switch (settings.line_unit) {
+    case LineUnit::picture:
+      return std::min(settings.width_px, settings.height_px) / kLineUnitsOfPicture;
+    case LineUnit::pt:
+      return (settings.dots_per_inch > 0 ? settings.dots_per_inch : kDotsPerInchOfScreens) / kPointsPerInch;
+    default:
+      return 1;
+  }
 }
 
 /// For a renderer.

@@ -51,6 +51,7 @@ Material material_of(const Scene& scene, std::int64_t sphere_id) {
     material.ambient *= opacity;
     material.diffuse *= opacity;
     material.specular *= opacity;
+    material.glow *= opacity;
     material.transmissive = 1 - opacity;
     material.refraction_index = 1;
   }

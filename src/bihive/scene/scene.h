@@ -50,6 +50,8 @@ struct Scene {
   std::vector<ColourBy> coloured_by;
   /// Positions in `coloured_by`, -1: the colour has no meaning. Empty: all have the first, if there is one.
   std::vector<std::int32_t> coloured_by_of_sphere;
+  /// What colour_by() gives elements: linear RGB by atomic number, 0: unknown. Empty: element_colour() (palette.h).
+  std::vector<Vec3f> element_colours;
   std::string length_unit;  ///< of the input's format ("Å"); empty: unknown
   std::vector<PointLight> lights;
   std::optional<ScenePlane> plane;
@@ -93,7 +95,7 @@ bool has_effects(const Scene& scene);
 bool lets_light_through(const Scene& scene);
 
 /// The material of one sphere, from the list. A colour attribute replaces the colour. An opacity a below 1 scales
-/// ambient, diffuse and specular by a, and 1 - a of the light goes straight through (index 1).
+/// ambient, diffuse, specular and glow by a, and 1 - a of the light goes straight through (index 1).
 Material material_of(const Scene& scene, std::int64_t sphere_id);
 
 }  // namespace bihive

@@ -24,6 +24,13 @@ struct AtomColours {
   std::int64_t above = 0;  ///< only for sets with more spheres
 };
 
+/// The settings of a style that states none: files' defaults, with lines that grow with the picture.
+inline PictureSettings picture_of_style() {
+  PictureSettings picture;
+  picture.line_unit = LineUnit::picture;
+  return picture;
+}
+
 struct Style {
   std::string name;
   std::string description;  ///< one line
@@ -37,8 +44,8 @@ struct Style {
   /// Lines between spheres that touch and differ in this attribute, if they have it; empty: none.
   std::string crease;
   LightRig lights;
-  Vec3d background{1, 1, 1};  ///< linear
-  PictureSettings picture;    ///< its size and transfer are unused
+  Vec3d background{1, 1, 1};                     ///< linear
+  PictureSettings picture = picture_of_style();  ///< its size and transfer are unused
 };
 
 /// The built-in styles, the default one first.

@@ -9,12 +9,22 @@ namespace bihive {
 /// transmissive share; such a sphere casts a full shadow. This is Whitted's rule [Whitted1980] and the thesis's. once:
 /// both surfaces together transmit that share, once, and it does not count as a generation; shadow rays and rays of
 /// ambient occlusion are attenuated by the same share. Refracting spheres transmit shadow rays straight, with their own
-/// share.
-enum class OpacityRule { each_surface, once };
+/// share. first: as `once`, but of all spheres of one class of opacity a ray crosses the first alone, without a tint,
+/// so that they look like one hollow body; others of their class do not exist for this ray. Refracting spheres are in
+/// no class.
+enum class OpacityRule { each_surface, once, first };
+
+/// With OpacityRule::first: the class, 0 to 15, of a sphere that transmits this share straight, above 0 up to 1.
+/// Spheres whose opacities lie within the same sixteenth are in one class.
+constexpr int kOpacityClasses = 16;
+inline int opacity_class(double share) {
+  const int sixteenth = static_cast<int>(kOpacityClasses * share);
+  return sixteenth < kOpacityClasses ? sixteenth : kOpacityClasses - 1;
+}
 
 /// Rays cross layers in every generation, so their number would be a power of the number of layers. Hence, in a scene
-/// where the rule `once` applies to some sphere, a reflected or refracted ray that carries less of a primary ray's
-/// light than this is not traced: less than 1/8 of a step of an 8-bit picture in linear light.
+/// where the rule `once` or `first` applies to some sphere, a reflected or refracted ray that carries less of a primary
+/// ray's light than this is not traced: less than 1/8 of a step of an 8-bit picture in linear light.
 constexpr double kFaintestRay = 1.0 / 2048;
 
 }  // namespace bihive

@@ -14,24 +14,31 @@ struct Fog {
   double strength = 0.5;  ///< 0 to 1
 };
 
-constexpr double kWidestOutlinePx = 16;
+constexpr double kWidestOutlinePx = 16;  // in line units
+constexpr double kWidestLinePx = 255;    // in pixels
+
+/// The unit of the widths of outlines, creases and cell edges: a pixel; 1/720 of the picture's shorter side, so that a
+/// picture looks alike in every size; a point in print, 1/72 inch.
+enum class LineUnit { px, picture, pt };
+constexpr double kLineUnitsOfPicture = 720;
+constexpr double kPointsPerInch = 72;
+constexpr double kDotsPerInchOfScreens = 96;
 
 /// A line along the inner edge of whatever is in front of something else. A sample of a pixel lies on it if, at most
-/// `width_px` away and at the same position in its pixel, another sphere, the plane or the background is deeper by more
-/// than `step` radii of the sampled sphere. The line fades where spheres appear small, so that it does not cover them:
-/// it is full where the radius appears at least six times as wide as the line, and gone below two times. Spheres may
-/// have a width of their own, and lines between groups that touch, without a step: `outline_px` and `crease` of
-/// geometry/sphere_attributes.h.
+/// the line's width away and at the same position in its pixel, another sphere, the plane or the background is deeper
+/// by more than `step` radii of the sampled sphere. A line is at most a sixth as wide as the radius of its sphere
+/// appears, so that it does not cover small ones, and at most 255 pixels; one that is thinner than a pixel is a pixel
+/// wide and fainter instead. Spheres may have a width of their own, and lines between groups that touch, without a
+/// step: `outline_px` and `crease` of geometry/sphere_attributes.h.
 struct Outline {
-  double width_px = 1;    ///< 1 to kWidestOutlinePx
+  double width_px = 1;    ///< in line units, 1 to kWidestOutlinePx
   double step = 2;        ///< radii, >= 0
   Vec3d colour{0, 0, 0};  ///< linear
 };
 
-/// The edges of the periodic cell and of each copy. Spheres occlude them. The width is in pixels, at most
-/// kWidestOutlinePx.
+/// The edges of the periodic cell and of each copy. Spheres occlude them.
 struct CellLines {
-  double width_px = 2;
+  double width_px = 2;             ///< in line units, 1 to kWidestOutlinePx
   Vec3d colour{0.02, 0.02, 0.02};  ///< linear
 };
 

@@ -41,6 +41,7 @@ struct PictureSettings {
   std::optional<Outline> outline;
   std::optional<Fog> fog;
   std::optional<CellLines> cell_lines;  ///< without effect if the spheres have no cell
+  LineUnit line_unit = LineUnit::px;    ///< of all widths of lines
   /// The picture has opacity instead of a background: samples that hit nothing add no light to their pixel. Reflected
   /// and transmitted rays still see the background. Not for View::traversal and View::tree.
   bool transparent = false;

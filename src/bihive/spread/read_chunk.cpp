@@ -150,7 +150,7 @@ void take_whole_range(const SphereSet& chunk, ColourBy& how, Communicator& ranks
 }
 
 Camera frame_whole_picture(const Scene& chunk, const SphereSet::Bounds& whole, const Side& side, const Lens& lens,
-                           const RenderSettings& settings, double dots_per_inch, Communicator& ranks) {
+                           const RenderSettings& settings, Communicator& ranks) {
   const std::vector<Vec3d> corners = settings.cell_lines ? cell_corners(chunk.spheres) : std::vector<Vec3d>();
   const auto framed = [&](const Insets& insets) {
     const Framing framing{side, lens, settings.width_px, settings.height_px, insets, middle_of(whole)};
@@ -165,7 +165,7 @@ Camera frame_whole_picture(const Scene& chunk, const SphereSet::Bounds& whole, c
   const auto covers = [&](const Camera& camera, const CanvasArea& area) {
     return ranks.all_reduce_max(covers_spheres(chunk.spheres, camera, settings, area) ? 1 : 0) > 0;
   };
-  return frame_beside_labels(chunk, settings, dots_per_inch, framed, covers);
+  return frame_beside_labels(chunk, settings, framed, covers);
 }
 
 }  // namespace bihive

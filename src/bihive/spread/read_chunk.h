@@ -36,6 +36,6 @@ void take_whole_range(const SphereSet& chunk, ColourBy& how, Communicator& ranks
 /// frame_picture() for the spheres of all ranks, at the same time. `chunk`: the scene with the spheres of this rank,
 /// none of which clips remove. Not for View::tree.
 Camera frame_whole_picture(const Scene& chunk, const SphereSet::Bounds& whole, const Side& side, const Lens& lens,
-                           const RenderSettings& settings, double dots_per_inch, Communicator& ranks);
+                           const RenderSettings& settings, Communicator& ranks);
 
 }  // namespace bihive

@@ -23,12 +23,14 @@ bool has_slow_parts(const Scene& scene, const RenderSettings& settings) {
                                            has_own_lines(scene) || (has_soft_light(scene) && settings.shadows));
 }
 
-// The same picture with fewer rays. An outline keeps its width on the screen; a thinner one than a pixel is left out.
+// The same picture with fewer rays. An outline keeps its width on the screen; without those thinner than a pixel.
 void make_quick(RenderSettings& settings, int divisor) {
   if (settings.ambient_occlusion)
     settings.ambient_occlusion->directions = std::min(settings.ambient_occlusion->directions, kQuickDirections);
   settings.light_points = std::min(settings.light_points, kQuickLightPoints);
-  settings.outline_scale = 1.0 / divisor;
+  const double unit = line_unit_px(settings);
+  const double scale = settings.line_unit == LineUnit::picture ? 1 : 1.0 / divisor;
+  settings.line_scale = settings.outline.value_or(Outline()).width_px * unit * scale < 1 ? 0 : scale;
 }
 
 // For the labels of a picture of any step.

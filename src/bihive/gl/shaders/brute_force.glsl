@@ -8,7 +8,7 @@ Hit test_all_spheres(Ray ray, bool any_hit) {
     float t = sphere_hit(ray, stored_sphere(i));
 #ifdef LAYERS
     if (any_hit) {
-      if (t < kNever) light_passed *= arriving_behind(i);
+      if (t < kNever) light_passed *= arriving_behind(i, classes_crossed);
       if (light_passed == vec3(0.0)) return best;
       continue;
     }

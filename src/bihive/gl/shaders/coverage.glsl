@@ -12,6 +12,7 @@ void main() {
     behind *= passing(hit.sphere).x;
     ray.t_passed = hit.t;
     ray.id_passed = int(sphere_id(hit.sphere));
+    ray.classes_passed |= class_bit(hit.sphere);
     hit = scene_hit(ray);
   }
 #endif

@@ -14,6 +14,7 @@ struct Hit {
 bool is_nearer(Ray ray, float t, int i, Hit hit) {
   if (t > hit.t || t < ray.t_passed) return false;
   if (t == ray.t_passed && int(sphere_id(i)) <= ray.id_passed) return false;
+  if (ray.classes_passed != 0u && (ray.classes_passed & class_bit(i)) != 0u) return false;
   if (t < hit.t) return true;
   if (hit.sphere == kNothing) return false;
   bool layer = is_layer(i);

@@ -30,6 +30,7 @@ Light radiance(Ray primary, bool lit) {
 #ifdef LAYERS
   float pending_t_passed[PENDING_RAYS];
   int pending_id_passed[PENDING_RAYS];
+  uint pending_classes_passed[PENDING_RAYS];
 #endif
   int pending_count = 0;
 
@@ -78,7 +79,9 @@ Light radiance(Ray primary, bool lit) {
       if (transmits) {
 #ifdef LAYERS
         if (through > 0.0) {
-          tint_beyond *= passing_tint(hit.sphere, through);
+          uint its_class = class_bit(hit.sphere);
+          if (its_class == 0u) tint_beyond *= passing_tint(hit.sphere, through);
+          ray.classes_passed |= its_class;
           ray.t_passed = hit.t;
           ray.id_passed = int(sphere_id(hit.sphere));
         }
@@ -99,6 +102,7 @@ Light radiance(Ray primary, bool lit) {
 #ifdef LAYERS
           pending_t_passed[pending_count] = ray.t_passed;
           pending_id_passed[pending_count] = ray.id_passed;
+          pending_classes_passed[pending_count] = ray.classes_passed;
 #endif
           ++pending_count;
         } else {
@@ -125,6 +129,7 @@ Light radiance(Ray primary, bool lit) {
 #ifdef LAYERS
     ray.t_passed = pending_t_passed[pending_count];
     ray.id_passed = pending_id_passed[pending_count];
+    ray.classes_passed = pending_classes_passed[pending_count];
 #endif
     weight = pending_weight[pending_count];
     tint = pending_tint[pending_count];

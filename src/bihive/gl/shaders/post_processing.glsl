@@ -3,13 +3,15 @@
 #include "camera"
 #include "textures"
 
+const float kWidestLinePx = 255.0;
+
 uniform bool has_lines;
 uniform usampler2D first_hits;  // bits of the depth; position in leaf order, kPlane or kNothing; group
 uniform int border;             // of the texture around the picture, in pixels
 uniform float pixel_length;     // of one pixel; with one eye, at distance 1
 uniform float picture_outline_px;
 uniform bool has_creases;
-uniform float outline_scale;
+uniform float line_unit_px;
 uniform float outline_step;
 uniform vec3 outline_colour;
 uniform float fog_strength;  // 0: no fog
@@ -23,8 +25,8 @@ struct Line {
 Line line_of(int sphere) {
   float own = uintBitsToFloat(texelFetch(sphere_info, texel(sphere), 0).w);
   float outline = own >= 0.0 ? own : picture_outline_px;
-  float width = (outline > 0.0 || !has_creases ? outline : 1.0) * outline_scale;
-  return Line(width >= 1.0 ? width : 0.0, outline > 0.0);
+  float width = (outline > 0.0 || !has_creases ? outline : 1.0) * line_unit_px;
+  return Line(min(width, kWidestLinePx), outline > 0.0);
 }
 
 // The share of the line's colour in this sample.
@@ -37,21 +39,20 @@ float outline_at(ivec2 place) {
   float depth = uintBitsToFloat(here.x);
   float radius = stored_sphere(sphere).w;
   float pixel = pixel_length * (has_parallel_rays ? 1.0 : depth);
-  float lines_wide = radius / (pixel * line.width_px);
-  float share = clamp((lines_wide - 2.0) / 4.0, 0.0, 1.0);
-  if (!(share > 0.0)) return 0.0;
+  float width = min(line.width_px, radius / (6.0 * pixel));
+  float wide = max(width, 1.0);
 
   // Search for something deeper nearby.
   float limit = line.is_outline ? depth + outline_step * radius : kNever;
-  int reach = int(line.width_px);
+  int reach = int(wide);
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) {
-      if (float(x * x + y * y) > line.width_px * line.width_px) continue;
+      if (float(x * x + y * y) > wide * wide) continue;
       uvec4 beside = texelFetch(first_hits, place + ivec2(x, y), 0);
       if (int(beside.y) == sphere) continue;
       float its_depth = uintBitsToFloat(beside.x);
       bool touches = int(beside.y) >= 0 && beside.z != here.z && its_depth > depth;
-      if (touches || its_depth > limit) return share;
+      if (touches || its_depth > limit) return min(width, 1.0);
     }
   return 0.0;
 }

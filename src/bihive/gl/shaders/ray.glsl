@@ -4,7 +4,7 @@
 // Points origin + t direction with 0 <= t <= t_max. `leaves`: position in leaf order of the sphere on which the ray
 // starts, kPlane or kNothing. `left`: centre and radius of that sphere, -1 for none; the ray also exits spheres that
 // coincide with it. With LAYERS the ray has advanced to t_passed, through sphere id_passed: later hits follow in the
-// order of t, then of id.
+// order of t, then of id, and not of the classes in classes_passed.
 struct Ray {
   vec3 origin;
   vec3 direction;
@@ -16,6 +16,7 @@ struct Ray {
 #ifdef LAYERS
   float t_passed;
   int id_passed;
+  uint classes_passed;  // class_bit() of spheres
 #endif
 };
 
@@ -31,6 +32,7 @@ Ray make_ray(vec3 origin, vec3 direction) {
 #ifdef LAYERS
   ray.t_passed = 0.0;
   ray.id_passed = -1;
+  ray.classes_passed = 0u;
 #endif
   return ray;
 }

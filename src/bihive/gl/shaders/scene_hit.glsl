@@ -31,6 +31,7 @@ Hit closest_opaque(Ray ray) {
   while (is_layer(hit.sphere)) {
     ray.t_passed = hit.t;
     ray.id_passed = int(sphere_id(hit.sphere));
+    ray.classes_passed |= class_bit(hit.sphere);
     hit = scene_hit(ray);
   }
 #endif

@@ -5,6 +5,7 @@
 
 #ifdef LAYERS
 vec3 light_passed = vec3(1.0);  // transmittance along the last shadow ray
+uint classes_crossed = 0u;      // by it
 #endif
 
 #ifdef TREE
@@ -33,6 +34,7 @@ bool occluded(Ray ray) {
 vec3 share(Ray ray) {
 #ifdef LAYERS
   light_passed = vec3(1.0);
+  classes_crossed = 0u;
   occluded(ray);
   return light_passed;
 #else

@@ -1,5 +1,6 @@
 // Twin of render/transparency.h, on one tree of all spheres: a sphere's look says what it transmits. With LAYERS rays
-// pass straight through transparent spheres, which count once (OpacityRule::once); else all spheres are opaque here.
+// pass straight through transparent spheres, which count once (OpacityRule::once, or first of their class
+// with OpacityRule::first); else all spheres are opaque here.
 #include "textures"
 
 #ifdef LAYERS
@@ -17,10 +18,23 @@ vec3 passing_tint(int sphere, float share) {
   return largest > 0.0 ? 1.0 - (1.0 - share) * (1.0 - max(colour, 0.0) / largest) : vec3(1.0);
 }
 
-// Light that arrives behind a sphere, for shadow rays.
-vec3 arriving_behind(int sphere) {
+uniform bool first_surfaces;  // OpacityRule::first
+
+// The bit of its opacity_class() for a sphere that viewing rays pass straight; 0: it is in no class.
+uint class_bit(int sphere) {
+  float share = passing(sphere).x;
+  return first_surfaces && share > 0.0 ? 1u << uint(min(int(16.0 * share), 15)) : 0u;
+}
+
+// Light that arrives behind a sphere, for shadow rays. Of a class that the ray has `crossed`, nothing more is lost.
+vec3 arriving_behind(int sphere, inout uint crossed) {
   float share = passing(sphere).y;
-  return share > 0.0 ? share * passing_tint(sphere, share) : vec3(0.0);
+  if (!(share > 0.0)) return vec3(0.0);
+  uint bit = class_bit(sphere);
+  if (bit == 0u) return share * passing_tint(sphere, share);
+  bool again = (crossed & bit) != 0u;
+  crossed |= bit;
+  return vec3(again ? 1.0 : share);
 }
 
 // Does a viewing ray continue behind this?

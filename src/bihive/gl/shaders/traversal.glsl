@@ -96,7 +96,7 @@ Hit traverse(Ray ray, bool any_hit) {
         float t = sphere_hit(ray, stored_sphere(i));
 #ifdef LAYERS
         if (any_hit) {
-          if (t < kNever) light_passed *= arriving_behind(i);
+          if (t < kNever) light_passed *= arriving_behind(i, classes_crossed);
           continue;
         }
 #endif

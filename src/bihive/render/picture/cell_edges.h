@@ -20,10 +20,13 @@ class CellEdges {
  public:
   /// Without lines or without a cell there are no edges. The lines of a replicated set run along all of its copies; if
   /// they are more than 10,000, there are those of the box around all copies alone.
+  /// `lines`: with its width in pixels. Below one pixel, edges are a pixel wide and fainter: see opacity().
   CellEdges(const Scene& scene, const std::optional<CellLines>& lines, int width_px, int height_px);
 
   bool any() const { return !edges_.empty(); }
   Vec3d colour() const { return lines_.colour; }
+  /// The share of its colour that a sample on an edge has.
+  double opacity() const { return opacity_; }
 
   /// Those that may cover a place of the tile.
   void find_near(const Tile& tile, std::vector<EdgeOnPicture>& found) const;
@@ -34,6 +37,7 @@ class CellEdges {
   void add(Vec3d from, Vec3d to, const PixelPlaces& places);
 
   CellLines lines_;
+  double opacity_ = 1;
   bool parallel_ = false;
   std::vector<EdgeOnPicture> edges_;
 };

@@ -101,10 +101,10 @@ std::vector<std::string> missing_letters(const Scene& scene, const Labels& label
   return sentences;
 }
 
-LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSettings& settings, double dots_per_inch) {
+LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
   RenderSettings possible = settings;
   possible.labels = possible_labels(scene, camera, settings);
-  const double em = em_of_picture(settings.width_px, settings.height_px, dots_per_inch);
+  const double em = em_of_picture(settings.width_px, settings.height_px, settings.dots_per_inch);
   const CanvasArea nothing{double(settings.width_px), double(settings.height_px), 0, 0};
   CanvasArea title = nothing, legend = nothing, scale_bar = nothing, axes = nothing;
   const auto pen = [&](CanvasArea& area) { return LabelPen(area, settings.width_px, settings.height_px, em); };
@@ -116,9 +116,9 @@ LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSet
   return {found(title), found(legend), found(scale_bar), found(axes)};
 }
 
-void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings, double dots_per_inch) {
+void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings) {
   if (!settings.labels.any()) return;
-  const double em = em_of_picture(settings.width_px, settings.height_px, dots_per_inch);
+  const double em = em_of_picture(settings.width_px, settings.height_px, settings.dots_per_inch);
   const LabelPen pen(pixels, drawn_pixels(settings), settings.width_px, settings.height_px, em,
                      paper_of(scene, settings));
   Pens pens{pen, pen, pen, pen};

@@ -85,7 +85,7 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
                  settings.ambient_occlusion->directions <= kMostAmbientDirections);
   }
   BIHIVE_CHECK(settings.light_points >= 1 && settings.light_points <= kMostLightPoints);
-  BIHIVE_CHECK(settings.outline_scale > 0);
+  BIHIVE_CHECK(settings.line_scale >= 0);
   if (settings.outline) {
     BIHIVE_CHECK(settings.outline->width_px >= 1 && settings.outline->width_px <= kWidestOutlinePx);
     BIHIVE_CHECK(settings.outline->step >= 0);

@@ -75,6 +75,20 @@ bool covers_spheres(const SphereSet& spheres, const Camera& camera, const Render
   return meets;
 }
 
+std::int64_t spheres_around_eye(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings) {
+  const AreaInView in_view(camera, settings, {0, 0, double(settings.width_px), double(settings.height_px)});
+  const bool parallel = camera.projection == Projection::orthographic;
+  const Vec3d forward = normalized(camera.look_at - camera.eye);
+  std::int64_t count = 0;
+  for_each_sphere(spheres, [&](std::int64_t, Vec3d centre, double radius) {
+    const Vec3d place = centre - camera.eye;
+    const bool around = parallel ? std::abs(dot(place, forward)) < radius && in_view.meets(centre, radius)
+                                 : dot(place, place) < radius * radius;
+    if (around) ++count;
+  });
+  return count;
+}
+
 namespace {
 
 // The labels that `covers(area)` names get a side each: title above, legend right, scale bar below, and the axes, which
@@ -104,8 +118,7 @@ bool same(const Insets& a, const Insets& b) {
 
 }  // namespace
 
-Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings,
-                     double dots_per_inch) {
+Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings) {
   if (settings.view == View::tree) return frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px);
   const RemainingSpheres remaining(scene);
   const SphereSet& spheres = remaining.set();
@@ -116,17 +129,17 @@ Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, con
   const auto covers = [&](const Camera& camera, const CanvasArea& area) {
     return covers_spheres(spheres, camera, settings, area);
   };
-  return frame_beside_labels(scene, settings, dots_per_inch, framed, covers);
+  return frame_beside_labels(scene, settings, framed, covers);
 }
 
-Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings, double dots_per_inch,
+Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings,
                            const std::function<Camera(const Insets&)>& framed,
                            const std::function<bool(const Camera&, const CanvasArea&)>& covers) {
   // Fill the picture; then make room for those labels alone that cover spheres.
   Insets insets;
   Camera camera = framed(insets);
   for (int attempt = 0; settings.labels.any() && attempt < kMostMoves; ++attempt) {
-    const LabelAreas areas = label_areas(scene, camera, settings, dots_per_inch);
+    const LabelAreas areas = label_areas(scene, camera, settings);
     const Insets next = widened(insets, areas, settings, [&](const CanvasArea& area) { return covers(camera, area); });
     if (same(next, insets)) break;
     insets = next;
@@ -135,11 +148,9 @@ Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings, d
   return camera;
 }
 
-Insets insets_of_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                        double dots_per_inch) {
+Insets insets_of_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
   if (!settings.labels.any()) return {};
-  return widened({}, label_areas(scene, camera, settings, dots_per_inch), settings,
-                 [](const CanvasArea&) { return true; });
+  return widened({}, label_areas(scene, camera, settings), settings, [](const CanvasArea&) { return true; });
 }
 
 }  // namespace bihive

@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kBackgroundDepth = std::numeric_limits<double>::infinity();
 
+// The radius of a sphere, in widths of its line at most as wide.
+constexpr double kRadiusInLines = 6;
+
 // Edges of a cell are nearly black where nobody chose a colour; before a background that is darker than this, light.
 constexpr double kDarkBackground = 0.18;
 constexpr Vec3d kLightEdges{0.8, 0.8, 0.8};
@@ -20,6 +23,7 @@ constexpr Vec3d kLightEdges{0.8, 0.8, 0.8};
 std::optional<CellLines> cell_lines_of(const Scene& scene, const RenderSettings& settings) {
   if (settings.view != View::shaded || !settings.cell_lines) return std::nullopt;
   CellLines lines = *settings.cell_lines;
+  lines.width_px *= line_unit_px(settings) * (settings.line_scale > 0 ? settings.line_scale : 1);
   const Vec3d& light = scene.background;
   const double brightness = 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z;
   if (lines.colour == CellLines().colour && !settings.transparent && brightness < kDarkBackground)
@@ -40,17 +44,14 @@ PostProcessing::PostProcessing(const Scene& scene, const WaveScene& wave_scene, 
   if (settings.view != View::shaded) return;
   outline_ = settings.outline;
   all_outlined_ = settings.outline.has_value();
-  outline_scale_ = settings.outline_scale;
+  line_unit_px_ = line_unit_px(settings) * settings.line_scale;
   fog_ = settings.fog;
   if (has_own_lines(scene) && !outline_) outline_.emplace();
   if (outline_) {
     double widest = 0;
     for (std::int64_t id = 0; id < scene.spheres.size(); ++id) widest = std::max(widest, line_of(id).width_px);
-    border_ = static_cast<int>(std::ceil(widest));
-    for (int y = -border_; y <= border_; ++y)
-      for (int x = -border_; x <= border_; ++x)
-        if ((x != 0 || y != 0) && x * x + y * y <= widest * widest) around_.push_back({x, y});
-    if (around_.empty()) outline_.reset();
+    border_ = widest > 0 ? static_cast<int>(std::max(widest, 1.0)) : 0;
+    if (border_ == 0) outline_.reset();
   }
   if (fog_) {
     nearest_ = kBackgroundDepth;
@@ -76,6 +77,7 @@ void PostProcessing::find(const Tile& tile, const std::vector<CameraSample>& cam
   for (std::size_t sample = 0; sample < samples; ++sample) {
     find_depths(grown, camera_samples[sample], cancel, buffers);
     if (cancel != nullptr && cancel->cancelled()) return;
+    if (outline_) find_runs(row, buffers);
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const std::int64_t at = (y - grown.y0) * row + (x - grown.x0);
@@ -136,14 +138,32 @@ void PostProcessing::find_depths(const Tile& grown, const CameraSample& sample, 
   }
 }
 
-// In a preview, lines that would be thinner than a pixel are left out.
+// How many neighbours at either side, up to the border's width, hit the same.
+void PostProcessing::find_runs(std::int64_t row, EffectBuffers& buffers) const {
+  const std::vector<std::int64_t>& id = buffers.id;
+  const auto width = static_cast<std::size_t>(row);
+  buffers.run.assign(id.size(), 0);
+  std::vector<std::uint8_t>& run = buffers.run;
+  for (std::size_t begin = 0; begin < id.size(); begin += width) {
+    const std::size_t end = begin + width;
+    for (std::size_t at = begin; at < end;) {
+      std::size_t next = at + 1;
+      while (next < end && id[next] == id[at]) ++next;
+      for (std::size_t inside = at; inside < next; ++inside)
+        run[inside] =
+            static_cast<std::uint8_t>(std::min({inside - at, next - 1 - inside, static_cast<std::size_t>(border_)}));
+      at = next;
+    }
+  }
+}
+
 PostProcessing::Line PostProcessing::line_of(std::int64_t id) const {
   const SphereAttributes& attributes = scene_.spheres.attributes();
   const auto i = static_cast<std::size_t>(scene_.spheres.stored_id(id));
   const double own = attributes.outline_px.empty() ? -1 : double(attributes.outline_px[i]);
   const double outline = own >= 0 ? own : all_outlined_ ? outline_->width_px : 0;
-  const double width = (outline > 0 || attributes.crease.empty() ? outline : Outline().width_px) * outline_scale_;
-  return {width >= 1 ? width : 0, outline > 0};
+  const double width = (outline > 0 || attributes.crease.empty() ? outline : Outline().width_px) * line_unit_px_;
+  return {std::min(width, kWidestLinePx), outline > 0};
 }
 
 std::int32_t PostProcessing::group(std::int64_t id) const {
@@ -159,19 +179,27 @@ double PostProcessing::outline_at(const EffectBuffers& buffers, std::int64_t at,
   const double depth = buffers.depth[static_cast<std::size_t>(at)];
   const double radius = scene_.spheres.radius(id);
   const double pixel = length(rays_.right()) * (rays_.parallel() ? 1 : depth);
-  const double lines_wide = radius / (pixel * line.width_px);
-  const double share = std::clamp((lines_wide - 2) / 4, 0.0, 1.0);
-  if (!(share > 0)) return 0;
+  const double width = std::min(line.width_px, radius / (kRadiusInLines * pixel));
+  const double reach = std::max(width, 1.0);
   const double limit = line.is_outline ? depth + outline_->step * radius : kBackgroundDepth;
-  const bool beside_deeper = std::any_of(around_.begin(), around_.end(), [&](Step step) {
-    if (step.x * step.x + step.y * step.y > line.width_px * line.width_px) return false;
-    const auto at_beside = static_cast<std::size_t>(at + step.y * row + step.x);
+  const auto is_edge_beside = [&](std::size_t at_beside) {
     const std::int64_t beside = buffers.id[at_beside];
     if (beside == id) return false;
     const double its_depth = buffers.depth[at_beside];
     return its_depth > limit || (beside >= 0 && its_depth > depth && group(beside) != group(id));
-  });
-  return beside_deeper ? share : 0;
+  };
+
+  // Look at the circle around the sample, row by row; a row that hits the same sphere from end to end has no edge.
+  const auto rows = static_cast<std::int64_t>(reach);
+  for (std::int64_t y = -rows; y <= rows; ++y) {
+    const auto across = static_cast<std::int64_t>(std::sqrt(reach * reach - static_cast<double>(y * y)));
+    const std::int64_t middle = at + y * row;
+    const auto i = static_cast<std::size_t>(middle);
+    if (buffers.id[i] == id && buffers.run[i] >= across) continue;
+    for (std::int64_t beside = middle - across; beside <= middle + across; ++beside)
+      if (is_edge_beside(static_cast<std::size_t>(beside))) return std::min(width, 1.0);
+  }
+  return 0;
 }
 
 double PostProcessing::fog_at(double depth) const {
@@ -185,7 +213,8 @@ Vec3d PostProcessing::applied(const Tile& tile, const EffectBuffers& buffers, in
                               Vec3d light, double passing) const {
   const SampleEffect& effect = effect_of(tile, buffers, x, y, sample);
   if (effect.cell_edge) {
-    light = (1 - passing) * light + passing * cell_edges_.colour();
+    const double line = cell_edges_.opacity() * passing;
+    light = (1 - line) * light + line * cell_edges_.colour();
   } else if (effect.outline > 0) {
     const double line = double(effect.outline) * passing;
     light = (1 - line) * light + line * outline_->colour;

@@ -26,6 +26,7 @@ struct EffectBuffers {
   WaveBuffers rays;
   std::vector<double> depth;  ///< of a tile with its border, row by row; +inf: background
   std::vector<std::int64_t> id;
+  std::vector<std::uint8_t> run;    ///< how many neighbours at either side hit the same, at most the border's width
   std::vector<std::int32_t> place;  ///< in `depth`, of each ray
   std::vector<SampleEffect> effects;
   std::vector<EdgeOnPicture> edges;  ///< of cells, near the tile
@@ -58,6 +59,7 @@ class PostProcessing {
  private:
   void find_depths(const Tile& grown, const CameraSample& sample, const CancelToken* cancel,
                    EffectBuffers& buffers) const;
+  void find_runs(std::int64_t row, EffectBuffers& buffers) const;
   double outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const;
   double fog_at(double depth) const;
   static const SampleEffect& effect_of(const Tile& tile, const EffectBuffers& buffers, int x, int y,
@@ -84,15 +86,11 @@ class PostProcessing {
 
   std::optional<Outline> outline_;
   bool all_outlined_ = false;
-  double outline_scale_ = 1;
+  double line_unit_px_ = 1;
   std::optional<Fog> fog_;
   double nearest_ = 0, farthest_ = 0;  // depths of the set
   CellEdges cell_edges_;
-  struct Step {
-    int x, y;
-  };
-  std::vector<Step> around_;
-  int border_ = 0;
+  int border_ = 0;  // the pixels around a tile that its lines look at
 };
 
 }  // namespace bihive

@@ -17,6 +17,8 @@ namespace {
 // The shares of light that a sphere lets straight through.
 struct Passing {
   double to_eye, to_light;
+
+  int class_by(OpacityRule rule) const { return rule == OpacityRule::first && to_eye > 0 ? opacity_class(to_eye) : -1; }
 };
 Passing passing_of(const Material& material) {
   const double share = std::min(material.transmissive, 1.0);
@@ -36,7 +38,8 @@ Vec3d passing_tint(const Material& material) {
 
 Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     const SphereSet& spheres, std::vector<double> passing, Engine engine, int threads,
-    std::shared_ptr<const CutSet> cuts, std::vector<Vec3d> tints, const Scene* of_images, std::int64_t first) {
+    std::shared_ptr<const CutSet> cuts, std::vector<Vec3d> tints, const Scene* of_images, std::int64_t first,
+    std::vector<std::int8_t> classes) {
   try {
     auto made = std::make_shared<TransparentSpheres>();
     made->passing_ = std::move(passing);
@@ -44,17 +47,33 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     made->has_tints_ = !made->tints_.empty();
     made->of_images_ = of_images;
     std::vector<std::int64_t> opaque, transparent;
+    std::vector<std::vector<std::int64_t>> of_class(kOpacityClasses);
     const std::int64_t count = first < 0 ? spheres.size() : first;
-    for (std::int64_t id = 0; id < count; ++id) (made->passing(id) > 0 ? transparent : opaque).push_back(id);
+    for (std::int64_t id = 0; id < count; ++id) {
+      const int its_class = classes.empty() ? -1 : classes[static_cast<std::size_t>(id)];
+      if (!(made->passing(id) > 0))
+        opaque.push_back(id);
+      else
+        (its_class < 0 ? transparent : of_class[static_cast<std::size_t>(its_class)]).push_back(id);
+    }
     Result<std::shared_ptr<const RayEngine>> part =
         build_engine(spheres, std::move(opaque), cuts, {engine, {}, threads});
     if (!part) return part.error();
     made->opaque_ = std::move(*part);
     // Crossings are found by a tree, also for the brute engines.
-    part = build_engine(spheres, std::move(transparent), std::move(cuts),
-                        {is_brute(engine) ? Engine::reference : engine, {}, threads});
+    const EngineParameters of_tree{is_brute(engine) ? Engine::reference : engine, {}, threads};
+    part = build_engine(spheres, std::move(transparent), cuts, of_tree);
     if (!part) return part.error();
     made->transparent_ = std::move(*part);
+    for (std::vector<std::int64_t>& ids : of_class) {
+      if (ids.empty()) continue;
+      const double share = made->passing(ids.front());
+      const bool alike =
+          std::all_of(ids.begin(), ids.end(), [&](std::int64_t id) { return made->passing(id) == share; });
+      part = build_engine(spheres, std::move(ids), cuts, of_tree);
+      if (!part) return part.error();
+      made->of_classes_.push_back({std::move(*part), alike ? share : 0});
+    }
     return std::shared_ptr<const TransparentSpheres>(std::move(made));
   } catch (const std::bad_alloc&) {
     return no_memory_for("the transparent spheres");
@@ -62,9 +81,10 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
 }
 
 std::shared_ptr<const TransparentSpheres> TransparentSpheres::remote(const Scene& scene, RemoteEngine& remote,
-                                                                     bool to_eye, bool has_tints) {
+                                                                     bool to_eye, bool has_tints, OpacityRule rule) {
   auto made = std::make_shared<TransparentSpheres>();
   made->seen_ = &scene;
+  made->has_classes_ = rule == OpacityRule::first;
   made->to_eye_ = to_eye;
   made->has_tints_ = has_tints;
   made->opaque_ =
@@ -80,7 +100,9 @@ double TransparentSpheres::passing_of_seen(std::int64_t id) const {
 }
 
 Vec3d TransparentSpheres::tint_of(const Scene& scene, std::int64_t id) const {
-  return passing(id) > 0 ? passing_tint(material_of(scene, id)) : Vec3d{1, 1, 1};
+  const Material material = material_of(scene, id);
+  const bool is_tinted = passing(id) > 0 && (!has_classes_ || passing_of(material).class_by(OpacityRule::first) < 0);
+  return is_tinted ? passing_tint(material) : Vec3d{1, 1, 1};
 }
 
 Hit TransparentSpheres::closest_opaque(const Ray& ray) const {
@@ -96,15 +118,53 @@ void TransparentSpheres::find_crossings(const Ray& ray, std::vector<Crossing>& f
 
 Vec3d TransparentSpheres::share(const Ray& ray) const {
   if (opaque_->occluded(ray)) return {};
-  static thread_local std::vector<Crossing> crossings;
-  find_crossings(ray, crossings);
-  double share = 1;
-  Vec3d tint_of_all{1, 1, 1};
-  for (const Crossing& crossing : crossings) {
-    share = share * passing(crossing.id);
-    tint_of_all = tint_of_all * tint(crossing.id);
+  Vec3d share;
+  find_shares(one_ray(ray).span(), RayOrder::any, &share);
+  return share;
+}
+
+void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, Vec3d* shares) const {
+  // Spheres in no class; where they are remote, all of them.
+  static thread_local std::vector<RayHit> found;
+  transparent_->all_hits(rays, order, found);
+  if (has_classes_) keep_first_of_classes(found);
+  static thread_local std::vector<double> passed;
+  passed.assign(static_cast<std::size_t>(rays.count), 1.0);
+  std::fill_n(shares, rays.count, Vec3d{1, 1, 1});
+  for (std::size_t i = 0; i < found.size();) {
+    const std::int64_t ray = found[i].ray;
+    double& share = passed[static_cast<std::size_t>(ray)];
+    double of_class[kOpacityClasses];
+    std::fill_n(of_class, kOpacityClasses, 1.0);
+    for (; i < found.size() && found[i].ray == ray; ++i) {
+      const int its_class = class_of(found[i].sphere_id);
+      (its_class < 0 ? share : of_class[its_class]) *= passing(found[i].sphere_id);
+      shares[ray] = shares[ray] * tint(found[i].sphere_id);
+    }
+    for (const double one : of_class) share *= one;
   }
-  return share * tint_of_all;
+
+  // The first of each class, or where all let the same through, any.
+  static thread_local HitBatch hits;
+  static thread_local std::vector<std::uint8_t> crossed;
+  for (const Class& one : of_classes_) {
+    if (one.share > 0) {
+      crossed.resize(static_cast<std::size_t>(rays.count));
+      one.engine->occluded(rays, order, crossed.data());
+      for (std::size_t i = 0; i < passed.size(); ++i)
+        if (crossed[i] != 0) passed[i] *= one.share;
+      continue;
+    }
+    hits.resize(rays.count);
+    one.engine->closest_hits(rays, order, hits.span());
+    for (std::int64_t i = 0; i < rays.count; ++i)
+      if (const Hit hit = hits.at(i); hit.found()) passed[static_cast<std::size_t>(i)] *= passing(hit.sphere_id);
+  }
+  for (std::size_t i = 0; i < passed.size(); ++i) shares[i] = passed[i] * shares[i];
+}
+
+int TransparentSpheres::class_of(std::int64_t id) const {
+  return has_classes_ ? passing_of(material_of(*seen_, id)).class_by(OpacityRule::first) : -1;
 }
 
 void TransparentSpheres::closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
@@ -117,6 +177,33 @@ void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t
 
 void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
   transparent_->all_hits(rays, order, found);
+  if (has_classes_) keep_first_of_classes(found);
+  if (of_classes_.empty()) return;
+  static thread_local HitBatch hits;
+  for (const Class& one : of_classes_) {
+    hits.resize(rays.count);
+    one.engine->closest_hits(rays, order, hits.span());
+    for (std::int64_t i = 0; i < rays.count; ++i)
+      if (const Hit hit = hits.at(i); hit.found()) found.push_back({i, hit.t, hit.sphere_id});
+  }
+  sort_hits(found);
+}
+
+// Of hits in the order of all_hits(): other processes know the first hits of their own spheres alone.
+void TransparentSpheres::keep_first_of_classes(std::vector<RayHit>& found) const {
+  std::int64_t ray = -1;
+  std::uint32_t crossed = 0;
+  const auto is_hidden = [&](const RayHit& hit) {
+    if (hit.ray != ray) crossed = 0;
+    ray = hit.ray;
+    const int its_class = class_of(hit.sphere_id);
+    if (its_class < 0) return false;
+    const std::uint32_t bit = 1u << its_class;
+    const bool again = (crossed & bit) != 0;
+    crossed |= bit;
+    return again;
+  };
+  found.erase(std::remove_if(found.begin(), found.end(), is_hidden), found.end());
 }
 
 namespace {
@@ -128,6 +215,7 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
   if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
   const auto count = static_cast<std::size_t>(scene.spheres.size());
   std::vector<double> to_eye(count), to_light(count);
+  std::vector<std::int8_t> classes(rule == OpacityRule::first ? count : 0);
   // Images may have a tint where the stored spheres have none.
   const Scene* const of_images = ImageColours(scene).any() ? &scene : nullptr;
   std::vector<Vec3d> tints;
@@ -137,7 +225,9 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
     const Passing passing = passing_of(material);
     to_eye[i] = passing.to_eye;
     to_light[i] = passing.to_light;
-    const Vec3d tint = to_light[i] > 0 ? passing_tint(material) : Vec3d{1, 1, 1};
+    const int its_class = passing.class_by(rule);
+    if (!classes.empty()) classes[i] = static_cast<std::int8_t>(its_class);
+    const Vec3d tint = to_light[i] > 0 && its_class < 0 ? passing_tint(material) : Vec3d{1, 1, 1};
     if (tints.empty() && tint != Vec3d{1, 1, 1}) tints.assign(count, {1, 1, 1});
     if (!tints.empty()) tints[i] = tint;
   }
@@ -148,9 +238,9 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
                           bool is_to_eye) -> Result<std::shared_ptr<const TransparentSpheres>> {
     if (std::none_of(passing.begin(), passing.end(), [](double share) { return share > 0; }))
       return std::shared_ptr<const TransparentSpheres>();
-    if (remote != nullptr) return TransparentSpheres::remote(scene, *remote, is_to_eye, !tints.empty());
-    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints, of_images,
-                                      first);
+    if (remote != nullptr) return TransparentSpheres::remote(scene, *remote, is_to_eye, !tints.empty(), rule);
+    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints, of_images, first,
+                                      classes);
   };
   Result<std::shared_ptr<const TransparentSpheres>> part = divide(to_light, alike);
   if (!part) return part.error();

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/settings/picture_effects.h"
+
 namespace bihive {
 namespace {
 
 constexpr double kShareOfSide = 0.028;  // of the shorter side: 20 pixels of 720
 constexpr double kLeastShare = 0.015, kMostShare = 0.06;
+// Small pictures have larger letters, as long as those leave room for a picture.
+constexpr double kReadablePx = 10;
 constexpr double kLeastPx = 6;
 constexpr double kPoints = 8;  // in print
-constexpr double kPointsPerInch = 72;
 constexpr double kLineEm = 0.07;
 constexpr double kSeamEm = 0.12;
 constexpr double kSeamOpacity = 0.85;
@@ -92,7 +95,7 @@ double em_of_picture(int width_px, int height_px, double dots_per_inch) {
   double em = kShareOfSide * shorter;
   if (dots_per_inch > 0)
     em = std::clamp(kPoints / kPointsPerInch * dots_per_inch, kLeastShare * shorter, kMostShare * shorter);
-  return std::max(em, kLeastPx);
+  return std::max({em, std::min(kReadablePx, kMostShare * shorter), kLeastPx});
 }
 
 }  // namespace bihive

@@ -105,7 +105,10 @@ HWY_INLINE Lanes3 local_light(const WaveScene& wave_scene, LaneMask there, const
                               const steps::LightReceived& received, std::int64_t first, Lanes3 visibility) {
   const MaterialLanes material = materials_of(wave_scene, there, surface.material_inside, surface.id);
   EffectLanes effects;
-  if (HWY_UNLIKELY(wave_scene.has_effects)) effects = EffectLanes(wave_scene, there, surface.material_inside);
+  if (HWY_UNLIKELY(wave_scene.has_effects)) {
+    effects = EffectLanes(wave_scene, there, surface.material_inside);
+    effects.glow = hn::Mul(effects.glow, material.opacity);
+  }
   Lanes3 diffuse = all(Vec3d{});
   Lanes3 specular = all(Vec3d{});
   std::int64_t hidden_at = first;

@@ -22,6 +22,7 @@ namespace HWY_NAMESPACE {
 struct MaterialLanes {
   Lanes3 colour;
   Lanes ambient, diffuse, reflective, specular, power, transmissive, refraction_index;
+  Lanes opacity = hn::Set(Tag(), 1);  ///< the factor of the other lanes that a sphere's own opacity scales
 };
 
 /// Opacity and colour of single spheres, if the scene has any.
@@ -53,6 +54,7 @@ HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes
   lanes.ambient = hn::IfThenElse(clear, hn::Mul(lanes.ambient, opacity), lanes.ambient);
   lanes.diffuse = hn::IfThenElse(clear, hn::Mul(lanes.diffuse, opacity), lanes.diffuse);
   lanes.specular = hn::IfThenElse(clear, hn::Mul(lanes.specular, opacity), lanes.specular);
+  lanes.opacity = hn::IfThenElse(clear, opacity, lanes.opacity);
   const Lanes sent_on = scene.passes_apart ? all(0) : hn::Sub(all(1), opacity);
   lanes.transmissive = hn::IfThenElse(clear, sent_on, lanes.transmissive);
   lanes.refraction_index = hn::IfThenElse(clear, all(1), lanes.refraction_index);

@@ -380,7 +380,7 @@ void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uin
                                    std::int64_t first) const {
   if (to_light() == nullptr) return tracer_.occluded(rays, order, hidden);
   static thread_local std::vector<double> ends;
-  static thread_local std::vector<RayHit> crossings;
+  static thread_local std::vector<Vec3d> shares;
   to_light()->hides(rays, order, hidden);
 
   // Rays that are hidden anyway get an end before their start, so they cross nothing.
@@ -391,18 +391,10 @@ void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uin
   }
   RaySpan open = rays;
   open.t_max = ends.data();
-  to_light()->find_crossings(open, order, crossings);
-  for (int channel = 0; channel < channels(); ++channel) std::fill_n(share[channel].data() + first, rays.count, 1.0);
-  for (std::size_t i = 0; i < crossings.size();) {
-    // The crossings of one ray.
-    const std::int64_t ray = crossings[i].ray;
-    double passed = 1;
-    Vec3d tint{1, 1, 1};
-    for (; i < crossings.size() && crossings[i].ray == ray; ++i) {
-      passed = passed * to_light()->passing(crossings[i].sphere_id);
-      tint = tint * to_light()->tint(crossings[i].sphere_id);
-    }
-    const Vec3d arriving = passed * tint;
+  shares.resize(static_cast<std::size_t>(rays.count));
+  to_light()->find_shares(open, order, shares.data());
+  for (std::int64_t ray = 0; ray < rays.count; ++ray) {
+    const Vec3d arriving = shares[static_cast<std::size_t>(ray)];
     for (int channel = 0; channel < channels(); ++channel) share[channel][first + ray] = arriving[channel];
     if (arriving == Vec3d{}) hidden[ray] = 1;
   }
