@@ -136,6 +136,8 @@ void add_options_by_theme(CLI::App& command, RenderOptions& options, std::vector
   begin_theme(command, "Other options");
 }
 
+constexpr const char* kNoMetadata = "Leave out of the file how it was made";
+
 void add_render(CLI::App& app, RenderOptions& options, Request& request) {
   CLI::App& command = add_command(
       app, "render", "Render a picture", "bihive render demo -o molecule.png --view-from iso --background black",
@@ -150,8 +152,39 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       .add_option("--film", options.film,
                   "Draw a picture of this film (bihive film), with its options and camera:\nFILE.json")
       ->type_name("FILE");
+  command.add_flag_callback(
+      "--no-metadata", [&options] { options.metadata = false; }, kNoMetadata);
   add_integer(command, "--picture", options.picture_of_film, 0, kUnlimited,
               "--film: which one of its pictures, from 0; or name its frame by --frame");
+}
+
+void add_again(CLI::App& app, AgainOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "again", "Draw the picture of a PNG that bihive made once more, or with changes",
+                                  "bihive again figure.png -o larger.png --size 2400x1600",
+                                  "bihive again figure.png other_molecule.pdb -o other.png", options, request);
+  command.add_option("FIGURE", options.figure, "A PNG that bihive made")->type_name("")->required();
+  add_input<PictureRequest>(command, options.changes);
+  command.get_option("INPUT")->required(false);
+  command.add_option("-o,--output", options.changes.output, "The new picture, a PNG (FIGURE-again.png)")
+      ->type_name("FILE");
+  command.add_flag_callback(
+      "--no-metadata", [&options] { options.changes.metadata = false; }, kNoMetadata);
+  add_options_by_theme(command, options.changes);
+}
+
+void add_verify(CLI::App& app, VerifyOptions& options, Request& request) {
+  CLI::App& command = add_command(app, "verify", "Draw pictures that bihive made once more, and compare every bit",
+                                  "bihive verify figure.png", "bihive verify figures/ --json", options, request);
+  command
+      .add_option(
+          "FIGURE", options.figures,
+          "PNG files that bihive made, or folders of them; last, if it lies neither\nbeside the figure nor here, "
+          "the input")
+      ->type_name("")
+      ->required();
+  command.add_option("--difference", options.difference, "Written: a picture of where they differ; of one figure")
+      ->type_name("FILE");
+  add_json_flag(command, options.json);
 }
 
 void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {
@@ -374,8 +407,7 @@ void add_web(CLI::App& app, WebOptions& options, Request& request) {
 }
 
 std::string version_text() {
-  const std::string revision = commit().empty() ? "" : " (" + std::string(commit()) + ")";
-  return "bihive " + std::string(version()) + revision;
+  return "bihive " + version_with_commit(version(), commit());
 }
 
 // The arguments from the last to the first, as CLI11 wants them. It would take the argument after "--title=" for the
@@ -405,6 +437,8 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   app.set_help_all_flag("--help-all", "Print this help message with all options and exit");
 
   RenderOptions render;
+  AgainOptions again;
+  VerifyOptions verify;
   FilmOptions film;
   ViewOptions view;
   StatsOptions stats;
@@ -418,6 +452,8 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   WebOptions web;
   Request request = HelpText{"", false};
   add_render(app, render, request);
+  add_again(app, again, request);
+  add_verify(app, verify, request);
   add_film(app, film, request, argc, argv);
   add_view(app, view, request);
   add_stats(app, stats, request);

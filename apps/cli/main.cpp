@@ -36,6 +36,8 @@ struct Run {
     return kBadUsage;
   }
   int operator()(const RenderOptions& options) const { return run_render(options), kSuccess; }
+  int operator()(const AgainOptions& options) const { return run_again(options), kSuccess; }
+  int operator()(const VerifyOptions& options) const { return run_verify(options) ? kSuccess : kBadInput; }
   int operator()(const FilmOptions& options) const { return run_film(options), kSuccess; }
   int operator()(const ViewOptions& options) const { run_view(options); }
   int operator()(const StatsOptions& options) const { return run_stats(options), kSuccess; }

@@ -13,6 +13,8 @@ SMALL = ["--size", "8x8", "--samples", "1"]
 # The outputs of each command, with the ending that each must have, and a command line without them.
 OUTPUTS = {
     "render": [("--output", ".png"), ("--output", ".exr")],
+    "again": [("--output", ".png")],
+    "verify": [("--difference", ".png")],
     "film": [("--output", ".y4m"), ("--output", ".y4m.json"), ("--output", ".y4m.part/film.json"), ("--output", "%02d.png")],
     "view": [("--screenshot", ".png")],
     "trace": [("--t", ".npy"), ("--id", ".npy")],
@@ -32,6 +34,7 @@ class RequestFilesTest(ProgramTest):
         self.write("in.xyz", XYZ)
         numpy.save(self.path("rays.npy"), numpy.ones((2, 6), dtype=numpy.float32))
         self.succeed("film", "in.xyz", "-o", "film.y4m", *SMALL)
+        self.succeed("render", "in.xyz", "-o", "figure.png", *SMALL)
 
     def options(self):
         """(command, option) of each place that takes a file, but for the outputs."""
@@ -43,11 +46,17 @@ class RequestFilesTest(ProgramTest):
         """What a command must read before it can know its outputs."""
         if option == "--film":
             return self.read("film.y4m.json")
+        if option == "FIGURE":
+            return self.read("figure.png")
         return XYZ.encode()
 
     def words(self, command, option, named, output, output_option):
         """The command line, and the path of the output that is the input `named`."""
         words = [command]
+        if option == "FIGURE":
+            return words + [named, output_option, output]
+        if command == "again":
+            words.append("figure.png")
         if option != "INPUT" and command not in ("thesis",):
             words.append("in.xyz")
         for needed, value in {"trace": [("--rays", "rays.npy"), ("--t", "t.npy"), ("--id", "id.npy")],
@@ -106,7 +115,7 @@ class RequestFilesTest(ProgramTest):
 
     def test_every_option_that_names_a_file(self):
         tried = self.try_all(link=False)
-        self.assertGreaterEqual(tried, {("render", "--title-values"), ("render", "--film"), ("render", "--style"),
+        self.assertGreaterEqual(tried, {("again", "FIGURE"), ("verify", "FIGURE"), ("render", "--title-values"), ("render", "--film"), ("render", "--style"),
                                         ("film", "--camera-keys"), ("trace", "--rays"), ("convert", "--trajectory"),
                                         ("view", "INPUT"), ("thesis", "--device")})
 

@@ -19,10 +19,28 @@ struct RenderOptions : PictureRequest {
   std::string output;  ///< a path, or "-": the standard output
   std::optional<std::vector<Layer>> layers;
   bool json = false;
-  std::string film;  ///< the file that describes a film, of which this is a picture; empty: none
+  bool metadata = true;  ///< the file says how it was made
+  std::string film;      ///< the file that describes a film, of which this is a picture; empty: none
   std::optional<std::int64_t> picture_of_film;  ///< from 0; unset: by input.frame
 };
 void run_render(const RenderOptions& options);
+
+/// The picture of a figure that bihive drew, once more, with changes.
+struct AgainOptions {
+  std::string figure;
+  RenderOptions changes;  ///< its input: in place of the figure's; its output empty: by the figure's name
+};
+void run_again(const AgainOptions& options);
+
+/// Draws figures again and compares.
+struct VerifyOptions {
+  std::vector<std::string> figures;  ///< files, or folders: all pictures in them that bihive drew
+  std::string input;                 ///< in place of the figure's; empty: that
+  std::string difference;            ///< a picture of where they differ; empty: none
+  bool json = false;
+};
+/// False: some figure is not what its record says.
+bool run_verify(const VerifyOptions& options);
 
 /// Pictures per second: a fraction, so that 30000/1001 is exact.
 struct FrameRate {

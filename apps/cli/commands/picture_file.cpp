@@ -4,10 +4,12 @@
 #include <array>
 
 #include "bihive/base/setting_name.h"
+#include "bihive/base/sha256.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/picture_record.h"
 #include "bihive/job/report_text.h"
 #include "bihive/render/draw_labels.h"
 #include "commands/commands.h"
@@ -41,20 +43,26 @@ class PngFileOfRows : public PictureFile {
         encoder_(std::move(encoder)),
         output_(output_path(picture_.options.output)),
         stream_(is_stream(output_)),
-        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()) {}
+        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()) {
+    // A picture of a film has its film's description instead.
+    if (picture_.options.metadata && !picture_.options.fixed) record_ = record_of(picture_.options, "");
+  }
 
   Status add(const Film& film, const Tile& pixels) override {
-    const RenderSettings& settings = picture_.settings;
-    const Transfer curve = settings.view == View::shaded ? picture_.scene.picture.transfer : Transfer::none;
-    PngPixels rows = png_pixels_from_film(film, curve, bits(), settings.threads);
-    draw_labels(rows, picture_.scene, settings_of(settings, pixels), picture_.options.dots_per_inch);
+    const PngPixels rows = png_rows(picture_.options, picture_.scene, picture_.settings, film, pixels);
     hash_.add(rows.bytes);
+    if (record_) sha_.add({reinterpret_cast<const char*>(rows.bytes.data()), rows.bytes.size()});
     if (Status status = encoder_.add(rows); !status) return status;
     return write();
   }
 
   Status finish() override {
-    if (Status status = encoder_.finish(); !status) return status;
+    PngText late;
+    if (record_) {
+      record_->pixels_sha256 = sha_.digits();
+      late.emplace_back(kLateKeyword, to_text(*record_));
+    }
+    if (Status status = encoder_.finish(late); !status) return status;
     if (Status status = write(); !status) return status;
     if (stream_) return file_->finish();
     const WritingSection section;
@@ -88,6 +96,8 @@ class PngFileOfRows : public PictureFile {
   std::optional<GrowingFile> file_;
   std::optional<RemovedWhenEnded> removed_;
   PictureHash hash_;
+  std::optional<PictureRecord> record_;
+  Sha256 sha_;  // of all rows
 };
 
 class ExrFileOfRows : public PictureFile {
@@ -112,6 +122,7 @@ class ExrFileOfRows : public PictureFile {
  private:
   Status begin() {
     const RenderSettings& settings = picture_.settings;
+    if (!picture_.options.metadata) picture_.text.clear();
     const ExrForm form{settings.width_px,      settings.height_px,
                        drawn_pixels(settings), channels_of(picture_.layers, settings.transparent),
                        picture_.text,          picture_.options.dots_per_inch};
@@ -128,6 +139,14 @@ class ExrFileOfRows : public PictureFile {
 };
 
 }  // namespace
+
+PngPixels png_rows(const PictureRequest& options, const Scene& scene, const RenderSettings& settings, const Film& film,
+                   const Tile& pixels) {
+  const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
+  PngPixels rows = png_pixels_from_film(film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
+  draw_labels(rows, scene, settings_of(settings, pixels));
+  return rows;
+}
 
 void check_picture_name(const std::string& output) {
   constexpr std::array kOthers{".jpg", ".jpeg", ".jpe",  ".jp2",  ".jxl",  ".ppm", ".pgm", ".pbm", ".pnm", ".pam",
@@ -177,7 +196,8 @@ std::unique_ptr<PictureFile> open_picture(PictureToWrite picture) {
   if (is_exr(options.output)) return std::make_unique<ExrFileOfRows>(std::move(picture));
   const Tile drawn = drawn_pixels(picture.settings);
   PngText text;
-  for (const auto& [name, value] : picture.text) text.emplace_back(name, latin1(value));
+  if (options.metadata)
+    for (const auto& [name, value] : picture.text) text.emplace_back(name, latin1(value));
   PngEncoder encoder =
       value_or_fail(PngEncoder::begin(drawn.width(), drawn.height(), picture.settings.transparent ? 4 : 3,
                                       static_cast<int>(options.bits.value_or(8)), text, options.dots_per_inch));

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "bihive/image/film.h"
+#include "bihive/image/png_pixels.h"
+#include "bihive/job/picture_request.h"
 #include "bihive/render/layers.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/render_settings.h"
@@ -27,6 +29,10 @@ bool is_exr(const std::string& output);
 /// The layers of an OpenEXR file; empty for a PNG. Removes from the settings what such a file does not have: labels,
 /// and the exposure and curve that scene or style mean for a screen. Fails if options contradict the file's kind.
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
+
+/// The rows of a PNG of that picture, labels included. `pixels`: of the whole picture, those of the film.
+PngPixels png_rows(const PictureRequest& options, const Scene& scene, const RenderSettings& settings, const Film& film,
+                   const Tile& pixels);
 
 /// Data of the file besides its pixels. All members except the text must outlive the file.
 struct PictureToWrite {

@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "bihive/scene/colour_by.h"
-#include "bihive/scene/element_colours.h"
-#include "bihive/scene/style.h"
+#include "bihive/base/setting_name.h"
+#include "bihive/job/picture_options.h"
+#include "bihive/job/picture_record.h"
 
 namespace bihive::cli {
 
@@ -44,11 +44,9 @@ std::vector<std::string> picture_words(const CLI::App& command, int argc, const 
 }
 
 bool names_file(const GivenOption& given) {
-  if (given.name == "--colour-by") return !colour_map_file(given.value).empty();
-  if (given.option->get_type_name().find("FILE") == std::string::npos) return false;
-  if (given.name == "--style") return !style_named(given.value);
-  if (given.name == "--element-colours") return !element_colours_called(given.value);
-  return true;
+  if (const std::string id = setting_of_option(given.name); picture_option(id) != nullptr)
+    return bihive::names_file(id, given.value);
+  return given.option->get_type_name().find("FILE") != std::string::npos;
 }
 
 }  // namespace bihive::cli

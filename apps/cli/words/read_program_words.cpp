@@ -60,7 +60,7 @@ Candidates candidates_of_place(const std::string& place, const std::string& comm
     for (const char* name : kBuiltInScenes)
       if (place == "INPUT" || std::string(name) != "demo") found.words.emplace_back(name);
   }
-  found.files = (place == "INPUT" || place == "TRAJECTORY") && command != "scene";
+  found.files = (place == "INPUT" || place == "TRAJECTORY" || place == "FIGURE") && command != "scene";
   return found;
 }
 

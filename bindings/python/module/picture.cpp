@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "arrays.h"
+#include "bihive/base/sha256.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/picture_record.h"
 #include "bihive/job/prepare_picture.h"
 #include "bihive/job/render_on_gpu.h"
 #include "bihive/job/report_text.h"
@@ -129,13 +131,19 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
   const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
   picture->pixels =
       png_pixels_from_film(rendered.film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
-  draw_labels(picture->pixels, scene, settings, options.dots_per_inch);
+  draw_labels(picture->pixels, scene, settings);
 
   // Keep its facts.
   const nlohmann::ordered_json described = settings_json(options, settings, scene, {});
   for (const auto& [name, value] : text_of(scene, described)) {
     picture->text.emplace_back(name, latin1(value));
     picture->exr_text.emplace_back(name, value);
+  }
+  // Spheres, styles and cameras in memory are in no file from which the picture could be drawn again.
+  if (spheres == nullptr && style_text.empty() && like == nullptr) {
+    Sha256 sha;
+    sha.add({reinterpret_cast<const char*>(picture->pixels.bytes.data()), picture->pixels.bytes.size()});
+    picture->text.emplace_back(kLateKeyword, to_text(record_of(options, sha.digits())));
   }
   nlohmann::ordered_json report;
   report["scene"] = scene.name;
