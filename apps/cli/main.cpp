@@ -3,11 +3,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <exception>
-#include <new>
-#include <stdexcept>
 #include <variant>
 
+#include "../shared/exit_code.h"
 #include "../shared/last_line.h"
 #include "bihive/base/memory.h"
 #include "bihive/base/parallel.h"
@@ -89,39 +87,20 @@ void keep_within_control_group(const Request& request) {
 }
 
 int run(int argc, const char* const* argv) {
-  try {
-    fill_closed_streams();
-    handle_signals();
-    name_settings_as_options();
-    if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
-    const Request request = parse_command_line(argc, argv, describe);
-    keep_within_control_group(request);
-    const int code = std::visit(Run{argv}, request);
-    finish_output();
-    return code;
-  } catch (const Failure& failure) {
-    say_error(failure.error.to_string());
-    say_lines(failure.shown);
-    return failure.code;
-  } catch (const std::bad_alloc&) {
-    say_no_memory();
-  } catch (const std::length_error&) {
-    say_no_memory();
-  } catch (const std::exception& error) {
-    say_error(error.what());
-  }
-  return kBadInput;
+  fill_closed_streams();
+  handle_signals();
+  name_settings_as_options();
+  if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
+  const Request request = parse_command_line(argc, argv, describe);
+  keep_within_control_group(request);
+  const int code = std::visit(Run{argv}, request);
+  finish_output();
+  return code;
 }
 
 }  // namespace
 }  // namespace bihive::cli
 
 int main(int argc, char** argv) {
-  // Reporting an error may need memory too.
-  try {
-    return bihive::cli::run(argc, argv);
-  } catch (const std::exception&) {
-    bihive::say_no_memory();
-  }
-  return bihive::kBadInput;
+  return bihive::exit_code_of([&] { return bihive::cli::run(argc, argv); });
 }

@@ -10,7 +10,6 @@
 
 #include "bihive/base/json_text.h"
 #include "bihive/base/readable.h"
-#include "templates.h"
 
 namespace bihive::thesis {
 namespace {
@@ -180,7 +179,7 @@ void conclude(Json& claim, const std::vector<Json>& findings, const Json& entrie
   const Json& worst = *std::max_element(findings.begin(), findings.end(),
                                         [](const Json& a, const Json& b) { return rank(a) < rank(b); });
   claim["verdict"] = worst["kind"].get<std::string>() + "_" + worst["verdict"].get<std::string>();
-  std::vector<std::string> ours, notes;
+  std::vector<std::string> ours;
   for (const Json& each : findings)
     ours.push_back((each["row"] == "" ? "" : each["row"].get<std::string>() + ": ") + each["ours"].get<std::string>());
   const auto holding =
@@ -229,18 +228,9 @@ Json words_of(const Json& finding) {
 }
 
 Json claims_of(const Experiment& experiment) {
-  // The entries of each claim, in the order of the file.
-  std::vector<std::pair<std::string, Json>> claims;
-  for (const auto& [name, entry] : experiment.values.document()["values"].items()) {
-    if (!entry.contains("claim")) continue;
-    const auto same = [&, &claim = entry["claim"]](const auto& each) { return each.first == claim; };
-    auto found = std::find_if(claims.begin(), claims.end(), same);
-    if (found == claims.end()) {
-      claims.emplace_back(entry["claim"].get<std::string>(), Json::array());
-      found = claims.end() - 1;
-    }
-    found->second.push_back(entry);
-  }
+  Json entries_of = Json::object();  // by claim, in the order of the file
+  for (const Json& entry : experiment.values.document()["values"])
+    if (entry.contains("claim")) entries_of[entry["claim"].get<std::string>()].push_back(entry);
   Json all = Json::array();
   const auto begin = [&](const Json& entry, const std::string& verdict, const std::string& found) -> Json& {
     return all.emplace_back(Json{{"section", entry.value("section", experiment.section)},
@@ -250,10 +240,10 @@ Json claims_of(const Experiment& experiment) {
                                  {"found", found},
                                  {"sentence", entry["sentence"]}});
   };
-  for (const auto& [claim, entries] : claims) {
+  for (const auto& [claim, entries] : entries_of.items()) {
     std::vector<Json> findings;
-    for (const Json& finding : experiment.findings)
-      if (finding["claim"] == claim) findings.push_back(finding);
+    std::copy_if(experiment.findings.begin(), experiment.findings.end(), std::back_inserter(findings),
+                 [&name = claim](const Json& finding) { return finding["claim"] == name; });
     conclude(begin(entries.front(), "not_run", ""), findings, entries);
   }
   for (const Json& remark : experiment.values.document().value("remarks", Json::array()))

@@ -1,17 +1,5 @@
 // One comparer for every claim: an entry of values.json names a quantity of the experiment's data, and how it must
-// compare with the value.
-//
-//   "claim": the sentence, as short as a line; entries with the same claim are its rows
-//   "row": the part of the sentence that is this entry's own; optional if the claim has one entry
-//   "of": a path into the data, "trees.b.leaves"; left out: the entry's name
-//   "is": how the quantity must compare with "value"; left out: "equal". See claims.cpp.
-//   "tolerance": the tolerance of "is", if it has one; 0 by default
-//   "prefix", "unit", "decimals", "key", "expects": how the quantity is written (before a number, after it, its digits,
-//   before the keys of a map), and what is expected if the value alone is unclear
-//   "contradicts": another statement of the text; if the quantity differs, the text contradicts itself
-//   "reason": shown if the claim does not simply agree
-//   "note": always shown
-//   "section", "held_by": the section of the text, by default the experiment's, and the tests that check the claim
+// compare with the value. thesis/README.md describes its members.
 //
 // Verdicts are texts: "agrees", "differs", "undecided" (the spread of our measurement reaches across the limit),
 // "text_inconsistent" (the text contradicts itself: no value of ours could agree with all of it).

@@ -1,19 +1,19 @@
-#include "claims_at_costs.h"
-
+// Quantities of the frame rates in section F of the text, at given costs of the steps of a ray.
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "bihive/thesis/frame_rates_report.h"
+#include "figure_4_4.h"
 
 namespace bihive::thesis {
 namespace {
 
 // A tree, or with MAX_PRIMS 0 brute force, in a configuration.
 struct Contestant {
-  double cost = 0;
-  std::int64_t max_prims = 0;
-  Configuration configuration = {};
+  double cost;
+  std::int64_t max_prims;
+  Configuration configuration;
+  double gain_percent = 0;  // over brute force
 
   std::string words() const { return fmt::format("{}, {} primitives", tree_name(max_prims), configuration.second); }
 };
@@ -30,17 +30,17 @@ std::string shape_of(const std::vector<Contestant>& trees) {
   return peak == trees.begin() ? "only falls" : "rises, peaks, falls";
 }
 
-// The gains of the best trees of a scenario over brute force, in percent.
-Json gains_of(const std::vector<std::pair<double, Contestant>>& gains) {
-  const auto [least, most] =
-      std::minmax_element(gains.begin(), gains.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+// The gains of the best trees of a scenario.
+Json gains_of(const std::vector<Contestant>& best) {
+  const auto [least, most] = std::minmax_element(
+      best.begin(), best.end(), [](const auto& a, const auto& b) { return a.gain_percent < b.gain_percent; });
   double sum = 0;
-  for (const auto& [gain, tree] : gains) sum += gain;
-  return {{"most", most->first},
-          {"most_which", most->second.words()},
-          {"least", least->first},
-          {"least_which", least->second.words()},
-          {"mean", sum / static_cast<double>(gains.size())}};
+  for (const Contestant& tree : best) sum += tree.gain_percent;
+  return {{"most", most->gain_percent},
+          {"most_which", most->words()},
+          {"least", least->gain_percent},
+          {"least_which", least->words()},
+          {"mean", sum / static_cast<double>(best.size())}};
 }
 
 }  // namespace
@@ -49,29 +49,29 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
   Json found = Json::object();
   std::vector<Contestant> best, all;  // per configuration; all except trees of one leaf
   std::vector<double> over_brute, one_leaf_over_brute;
-  std::map<std::int64_t, std::vector<std::pair<double, Contestant>>> gains;  // by scenario, with the tree
+  std::map<std::int64_t, std::vector<Contestant>> best_of_scenario;
   for (const auto& [configuration, trees] : work) {
-    const Contestant brute{costs.of({0, 0, static_cast<double>(configuration.second)}), 0, configuration};
+    const std::int64_t spheres = configuration.second;
+    const Contestant brute{costs.of({0, 0, static_cast<double>(spheres)}), 0, configuration};
     all.push_back(brute);
     std::vector<Contestant> named, any;  // those that the text names; all
     for (const auto& [prims, one] : trees) {
-      any.push_back({costs.of(one), prims, configuration});
-      const auto is_this = [&, prims = prims, most = configuration.second](std::int64_t named_prims) {
-        return std::min(named_prims, most) == prims;
-      };
-      if (std::any_of(pattern.among.begin(), pattern.among.end(), is_this)) named.push_back(any.back());
-      over_brute.push_back(any.back().cost / brute.cost);
-      if (prims == configuration.second)
+      const Contestant& tree = any.emplace_back(Contestant{costs.of(one), prims, configuration});
+      const auto is_this = [&](std::int64_t of_text) { return std::min(of_text, spheres) == tree.max_prims; };
+      if (std::any_of(pattern.among.begin(), pattern.among.end(), is_this)) named.push_back(tree);
+      over_brute.push_back(tree.cost / brute.cost);
+      if (prims == spheres)
         one_leaf_over_brute.push_back(over_brute.back());
       else
-        all.push_back(any.back());
+        all.push_back(tree);
     }
-    const std::string name = fmt::format("scenario{}_spheres{}", configuration.first, configuration.second);
-    best.push_back(*std::min_element(named.begin(), named.end(), cheaper));
+    const std::string name = fmt::format("scenario{}_spheres{}", configuration.first, spheres);
+    Contestant& winner = best.emplace_back(*std::min_element(named.begin(), named.end(), cheaper));
+    winner.gain_percent = 100 * (brute.cost / winner.cost - 1);
+    best_of_scenario[configuration.first].push_back(winner);
     found["curve"][name] = shape_of(named);
-    found["winner"][name] = best.back().max_prims;
+    found["winner"][name] = winner.max_prims;
     found["sweet_spot"][name] = std::min_element(any.begin(), any.end(), cheaper)->max_prims;
-    gains[configuration.first].emplace_back(100 * (brute.cost / best.back().cost - 1), best.back());
   }
   found["wins"] = wins_of(work, pattern, costs);
   found["best"] = std::min_element(best.begin(), best.end(), cheaper)->words();
@@ -88,14 +88,14 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
     return tree == trees->second.end() ? 0.0 : costs.of(tree->second);
   };
   if (cost_of("supposed_best") > 0) found["beyond_the_display"] = cost_of("best") / cost_of("supposed_best");
-  for (const auto& [scenario, of_scenario] : gains) {
-    const Json gain = found["gain"][fmt::format("scenario{}", scenario)] = gains_of(of_scenario);
-    found["mean_gain"][std::to_string(scenario)] = gain["mean"];
+  std::map<std::int64_t, Json> gains;
+  for (const auto& [scenario, trees] : best_of_scenario) {
+    found["gain"][fmt::format("scenario{}", scenario)] = gains[scenario] = gains_of(trees);
+    found["mean_gain"][std::to_string(scenario)] = gains[scenario]["mean"];
   }
   const std::vector<std::int64_t> pair = values.integers("mean_exceeds_best.scenarios");
   if (gains.count(pair.front()) > 0 && gains.count(pair.back()) > 0)
-    found["mean_ahead_of_most"] =
-        gains_of(gains[pair.front()])["mean"].get<double>() - gains_of(gains[pair.back()])["most"].get<double>();
+    found["mean_ahead_of_most"] = gains[pair.front()]["mean"].get<double>() - gains[pair.back()]["most"].get<double>();
   return found;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <list>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -52,7 +53,7 @@ struct Experiment {
   /// Filled by the experiment's own function.
   std::vector<Step> steps = {};
   /// Gives an object. Works with any subset of the results, and omits what depends on missing ones.
-  std::function<Json()> make_data = {};
+  Json (*make_data)(const Experiment& experiment) = nullptr;
 
   bool asked = true;                         ///< requested on the command line; else shown with an earlier run's
                                              ///< results
@@ -61,8 +62,10 @@ struct Experiment {
   Json data = Json::object();                ///< made of the results
   Json findings = Json::array(), claims = Json::array();
 
-  void add(std::string step, double quick_weight, double weight, std::function<Json()> run) {
-    steps.push_back({std::move(step), settings.quick ? quick_weight : weight, std::move(run)});
+  /// The step is `run(*this, of...)`.
+  template <class Run, class... Of>
+  void add(std::string step, double quick_weight, double weight, const Run& run, const Of&... of) {
+    steps.push_back({std::move(step), settings.quick ? quick_weight : weight, [=, this] { return run(*this, of...); }});
   }
   /// The step's result, or null if it is not done.
   const Json* result(const std::string& step) const {
@@ -91,4 +94,29 @@ struct Experiment {
 BIHIVE_THESIS_EXPERIMENTS(BIHIVE_DECLARE)
 #undef BIHIVE_DECLARE
 
+/// Fails if it cannot be made.
+void make_folder(const std::string& folder);
+
+/// Results of steps are kept as files, so that an interrupted run can go on: <out>/steps/<experiment>/<step>.json. This
+/// loads what the same build of the program saved with the same settings and stated values, if all its pictures still
+/// exist.
+void load_results(Experiment& experiment, const std::string& out);
+
+/// Runs the requested steps that are not done yet. Returns early after a signal. Fails if a result cannot be written.
+void run_steps(std::list<Experiment>& experiments, const std::string& out);
+
 }  // namespace bihive::thesis
+
+// The report's templates, embedded in the program.
+namespace bihive {
+
+std::string_view thesis_template_report();    ///< thesis/report/report.html
+std::string_view thesis_template_css();       ///< thesis/report/report.css
+std::string_view thesis_template_findings();  ///< thesis/report/findings.html
+std::string_view thesis_template_verdicts();  ///< thesis/report/verdicts.json
+// thesis_template_figure_4_1() and so on: thesis/figure-4.1/report.html.
+#define BIHIVE_DECLARE(name, id, section, title) std::string_view thesis_template_##name();
+BIHIVE_THESIS_EXPERIMENTS(BIHIVE_DECLARE)
+#undef BIHIVE_DECLARE
+
+}  // namespace bihive

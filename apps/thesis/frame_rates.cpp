@@ -1,7 +1,5 @@
 // Figure 4.4: the costs of inner nodes, leaves and sphere tests at which the text's claims hold, and the costs here.
 // The work of the rays is counted; clocks give costs, and costs are points in a diagram.
-#include "bihive/thesis/frame_rates.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,13 +7,11 @@
 #include <optional>
 
 #include "bihive/base/write_file.h"
-#include "bihive/thesis/figure_costs.h"
+#include "bihive/thesis/cost_diagram.h"
 #include "bihive/thesis/frame_rates_report.h"
 #include "claims.h"
-#include "claims_at_costs.h"
-#include "frame_times.h"
+#include "figure_4_4.h"
 #include "statistics.h"
-#include "tree_reasons.h"
 
 namespace bihive::thesis {
 namespace {
@@ -29,26 +25,17 @@ constexpr double kLeafCosts[] = {0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 1};
 // Costs of an inner node at which the claims are tested, across the range in which the pattern holds.
 constexpr int kTries = 41;
 
-std::string counts_step(std::int64_t scenario) {
-  return fmt::format("counts-scenario{}", scenario);
+// The names of steps.
+std::string step_of(const char* what, std::int64_t scenario) {
+  return fmt::format("{}-scenario{}", what, scenario);
 }
-std::string seeds_step(std::int64_t scenario) {
-  return fmt::format("seeds-scenario{}", scenario);
-}
-std::string times_step(const TimedProgram& program, std::int64_t scenario, std::int64_t spheres) {
-  return fmt::format("{}-scenario{}-spheres{}", program.key, scenario, spheres);
+std::string step_of(const TimedProgram& program, Configuration of) {
+  return fmt::format("{}-scenario{}-spheres{}", program.key, of.first, of.second);
 }
 
 // Rows of values.json: an assumption on which the results depend, and to what it is changed to see how much.
 Json variations(const Experiment& experiment) {
   return experiment.values.document().value("variations", Json::array());
-}
-
-FrameRatePlan plan_of(const Experiment& experiment) {
-  FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(experiment.values.stated()));
-  plan.seed = experiment.settings.seed;
-  plan.threads = experiment.settings.threads;
-  return plan;
 }
 
 // [{"scenario", "spheres", "max_prims", "inner", "leaves", "tests"}], or null if cancelled.
@@ -97,7 +84,7 @@ class FigureData {
         plan_(plan_of(experiment)),
         pattern_(value_or_fail(stated_pattern(values_.stated()))) {
     for (const std::int64_t scenario : plan_.scenarios)
-      if (const Json* const rows = experiment.result(counts_step(scenario))) {
+      if (const Json* const rows = experiment.result(step_of("counts", scenario))) {
         add_work(*rows, work_);
         for (const Json& row : *rows) data_["counts"].push_back(row);
       }
@@ -122,7 +109,7 @@ class FigureData {
   // One figure for each seed that was counted. A scenario without random numbers is the same with every seed.
   void collect_seeds() {
     for (const std::int64_t scenario : plan_.scenarios) {
-      const Json* const result = experiment_.result(seeds_step(scenario));
+      const Json* const result = experiment_.result(step_of("seeds", scenario));
       if (result == nullptr) return seeds_.clear();
       seeds_.resize(result->size());
       for (std::size_t seed = 0; seed < seeds_.size(); ++seed) add_work((*result)[seed], seeds_[seed]);
@@ -135,7 +122,7 @@ class FigureData {
     EngineTimes times;
     Json last;
     for (const auto& [configuration, trees] : work_) {
-      const Json* const result = experiment_.result(times_step(program, configuration.first, configuration.second));
+      const Json* const result = experiment_.result(step_of(program, configuration));
       if (result == nullptr) return;
       if (result->contains("missing")) {
         data_["missing_shader"] = (*result)["missing"];
@@ -189,9 +176,7 @@ class FigureData {
 
   void add_diagram() const {
     CostDiagram diagram = cost_diagram(work_, pattern_, seeds_);
-    for (const auto& [key, name, fitted] : fits_)
-      diagram.points.push_back({name.substr(0, name.find(',')), fitted.costs().inner, fitted.costs().leaf,
-                                fitted.inner_error, fitted.leaf_error});
+    for (const auto& [key, name, fitted] : fits_) diagram.points.push_back({name.substr(0, name.find(',')), fitted});
     write("costs.svg", cost_diagram_svg(diagram));
     write("costs.csv", cost_diagram_csv(diagram));
     const Json numbers = {{"inner_node_per_sphere_test", diagram.inner},
@@ -274,11 +259,10 @@ class FigureData {
     if (!costs) return;
     data_["at"]["text"] = quantities_at(work_, pattern_, *costs, values_);
     const Json findings = findings_at(data_["at"]["text"]);
-    Json programs = Json::array(), rows = Json::array();
-    for (Json finding : findings) {
-      finding.update(words_of(finding));
-      finding["elsewhere"] = Json::array();
-      rows.push_back(std::move(finding));
+    Json programs = Json::array(), rows = findings;
+    for (Json& row : rows) {
+      row.update(words_of(row));
+      row["elsewhere"] = Json::array();
     }
     for (const auto& [key, name, fitted] : fits_) {
       programs.push_back(name);
@@ -298,14 +282,14 @@ class FigureData {
     double most = 0, most_with_one_place = 0;
     for (const Json& times : result) {
       std::vector<double> ms;
-      const auto ratio = [&ms] {
-        const auto [least, greatest] = std::minmax_element(ms.begin(), ms.end());
+      for (const std::int64_t scenario : plan_.scenarios) ms.push_back(times.at(fmt::format("scenario{}", scenario)));
+      ms.push_back(times.at("one_place"));
+      const auto ratio = [&ms](auto end) {
+        const auto [least, greatest] = std::minmax_element(ms.begin(), end);
         return *greatest / *least;
       };
-      for (const std::int64_t scenario : plan_.scenarios) ms.push_back(times.at(fmt::format("scenario{}", scenario)));
-      most = std::max(most, ratio());
-      ms.push_back(times.at("one_place"));
-      most_with_one_place = std::max(most_with_one_place, ratio());
+      most = std::max(most, ratio(ms.end() - 1));
+      most_with_one_place = std::max(most_with_one_place, ratio(ms.end()));
     }
     data_["brute_force"] = {{"scenarios_ratio", most}, {"one_place_ratio", most_with_one_place}, {"ms", result}};
   }
@@ -355,33 +339,31 @@ class FigureData {
 
 void figure_4_4(Experiment& experiment) {
   const FrameRatePlan plan = plan_of(experiment);
+  const auto only = [&plan](std::int64_t scenario) {
+    FrameRatePlan one = plan;
+    one.scenarios = {scenario};
+    return one;
+  };
   for (const std::int64_t scenario : plan.scenarios) {
     // The text's trees, and trees of larger leaves, up to one leaf.
-    FrameRatePlan counted = plan;
-    counted.scenarios = {scenario};
+    FrameRatePlan counted = only(scenario);
     for (const std::int64_t more : experiment.values.integers("max_prims_beyond")) counted.max_prims.push_back(more);
     counted.max_prims.push_back(kUnlimited);
-    experiment.add(counts_step(scenario), 0.5, 8,
-                   [&experiment, counted] { return count_rays(experiment, counted, 1, kQuickStride); });
+    experiment.add(step_of("counts", scenario), 0.5, 8, count_rays, counted, 1, kQuickStride);
   }
-  for (const std::int64_t scenario : plan.scenarios) {
-    FrameRatePlan counted = plan;
-    counted.scenarios = {scenario};
-    experiment.add(seeds_step(scenario), 0.3, 20, [&experiment, counted] { return count_seeds(experiment, counted); });
-  }
+  for (const std::int64_t scenario : plan.scenarios)
+    experiment.add(step_of("seeds", scenario), 0.3, 20, count_seeds, only(scenario));
   for (const Json& variation : variations(experiment)) {
     FrameRatePlan changed = plan;
     changed.width_px = variation.value("width_px", plan.width_px);
     changed.height_px = variation.value("height_px", plan.height_px);
     changed.fov_deg = variation.value("fov_deg", plan.fov_deg);
     changed.radius = variation.value("radius", plan.radius);
-    experiment.add(variation["key"], 0.2, 2,
-                   [&experiment, changed] { return count_rays(experiment, changed, kOtherStride, kQuickOtherStride); });
+    experiment.add(variation["key"], 0.2, 2, count_rays, changed, kOtherStride, kQuickOtherStride);
   }
-  experiment.add("balance", 0.3, 0.3, [&experiment] {
-    const Values& values = experiment.values;
-    return measure_reasons(experiment, values.integers("spheres_list"), {values.integer("winner.max_prims")},
-                           experiment.settings.quick ? 10 : 100);
+  experiment.add("balance", 0.3, 0.3, [](const Experiment& of) {
+    return measure_reasons(of, of.values.integers("spheres_list"), {of.values.integer("winner.max_prims")},
+                           of.settings.quick ? 10 : 100);
   });
   double all = 0;
   for (const std::int64_t spheres : plan.spheres) all += static_cast<double>(spheres) + 100;
@@ -390,11 +372,10 @@ void figure_4_4(Experiment& experiment) {
       for (const std::int64_t spheres : plan.spheres) {
         const double weight =
             program.weight * (static_cast<double>(spheres) + 100) / all / static_cast<double>(plan.scenarios.size());
-        experiment.add(times_step(program, scenario, spheres), weight / 20, weight,
-                       [&, scenario, spheres] { return program.measure(experiment, scenario, spheres); });
+        experiment.add(step_of(program, {scenario, spheres}), weight / 20, weight, program.measure, scenario, spheres);
       }
-  experiment.add("brute_force", 1, 1, [&experiment] { return measure_brute_force(experiment); });
-  experiment.make_data = [&experiment] { return FigureData(experiment).all(); };
+  experiment.add("brute_force", 1, 1, measure_brute_force);
+  experiment.make_data = [](const Experiment& measured) { return FigureData(measured).all(); };
 }
 
 }  // namespace bihive::thesis

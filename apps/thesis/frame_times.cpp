@@ -1,5 +1,4 @@
-#include "frame_times.h"
-
+// The times of Figure 4.4's frames.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +6,8 @@
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/gl/egl_context.h"
-#include "bihive/thesis/frame_rates.h"
 #include "bihive/thesis/thesis_program.h"
+#include "figure_4_4.h"
 #include "pictures.h"
 #include "statistics.h"
 
@@ -18,20 +17,6 @@ namespace {
 // Pictures have a fraction of the width and height: the time of a ray does not depend on their number. On a GPU it
 // does, so its frames are whole in a full run.
 constexpr int kDivisor = 2, kQuickDivisor = 4, kQuickReferenceDivisor = 6;
-
-// Rounds that count.
-int rounds_of(const Experiment& experiment) {
-  return experiment.settings.quick ? 3 : 5;
-}
-
-FrameRatePlan plan_of(const Experiment& experiment, int divisor, int quick_divisor) {
-  FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(experiment.values.stated()))
-                           .smaller(experiment.settings.quick ? quick_divisor : divisor);
-  plan.seed = experiment.settings.seed;
-  plan.threads = experiment.settings.threads;
-  plan.rounds = rounds_of(experiment);
-  return plan;
-}
 
 Json measured(const FrameRatePlan& plan, Json times) {
   return {{"width_px", plan.width_px}, {"height_px", plan.height_px}, {"frame_ms", std::move(times)}};
@@ -51,7 +36,7 @@ Json measure_program(const Experiment& experiment, std::int64_t scenario, std::i
     contestants.emplace_back(fmt::format("max_prims{}", prims),
                              [&, program] { program->draw(plan.width_px, plan.height_px, true, ids); });
   }
-  Json times = times_in_turns(experiment, rounds_of(experiment), contestants);
+  Json times = times_in_turns(experiment, plan.rounds, contestants);
   if (times.is_null()) return {};
 
   std::int64_t most = 0;
@@ -75,9 +60,7 @@ Json measure_frames(const Experiment& experiment, FrameRatePlan plan, std::int64
                     GlRenderer* gl) {
   plan.scenarios = {scenario};
   plan.spheres = {spheres};
-  FrameEngine engine;
-  engine.gl = gl;
-  FrameRateRun run(plan, engine);
+  FrameRateRun run(plan, gl);
   while (!run.finished()) {
     const Status status = run.step(&experiment.cancel);
     if (experiment.cancel.cancelled()) return {};
@@ -111,6 +94,15 @@ Json measure_shader(const Experiment& experiment, std::int64_t scenario, std::in
 
 }  // namespace
 
+FrameRatePlan plan_of(const Experiment& experiment, int divisor, int quick_divisor) {
+  FrameRatePlan plan = value_or_fail(FrameRatePlan::from_values(experiment.values.stated()))
+                           .smaller(experiment.settings.quick ? quick_divisor : divisor);
+  plan.seed = experiment.settings.seed;
+  plan.threads = experiment.settings.threads;
+  plan.rounds = experiment.settings.quick ? 3 : 5;
+  return plan;
+}
+
 const std::vector<TimedProgram>& timed_programs() {
   static const std::vector<TimedProgram> kPrograms{{"program", "thesis program", measure_program, 30},
                                                    {"reference", "reference engine", measure_reference, 120},
@@ -139,7 +131,7 @@ Json measure_brute_force(const Experiment& experiment) {
     const std::vector<double> zero(static_cast<std::size_t>(count), 0.0), radii(zero.size(), plan.radius);
     scene.spheres = value_or_fail(SphereSet::from_world(zero, zero, zero, radii));
     add("one_place", scene);
-    const Json times = times_in_turns(experiment, 2 * rounds_of(experiment), contestants);
+    const Json times = times_in_turns(experiment, 2 * plan.rounds, contestants);
     for (const auto& [name, ms] : times.items())
       result[fmt::format("spheres{}", count)][name] = *std::min_element(ms.begin(), ms.end());
   }

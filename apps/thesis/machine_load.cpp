@@ -5,23 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <fstream>
 #include <sstream>
 
 namespace bihive::thesis {
 namespace {
-
-double wall_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double own_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // The processors that this program may use; other processors' work does not disturb it.
 cpu_set_t allowed_processors() {
@@ -54,6 +42,12 @@ double busy_seconds() {
 
 }  // namespace
 
+double seconds_by(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 void MachineLoad::add(const MachineLoad& part) {
   const double all = seconds + part.seconds;
   if (all > 0) others = (others * seconds + part.others * part.seconds) / all;
@@ -79,15 +73,17 @@ nlohmann::ordered_json MachineLoad::json() const {
           {"busy", busy()}};
 }
 
-LoadWatch::LoadWatch() : wall_(wall_seconds()), busy_(busy_seconds()), own_(own_seconds()) {}
+LoadWatch::LoadWatch()
+    : wall_(seconds_by(CLOCK_MONOTONIC)), busy_(busy_seconds()), own_(seconds_by(CLOCK_PROCESS_CPUTIME_ID)) {}
 
 MachineLoad LoadWatch::so_far() const {
   MachineLoad load;
-  load.seconds = wall_seconds() - wall_;
+  load.seconds = seconds_by(CLOCK_MONOTONIC) - wall_;
   const cpu_set_t allowed = allowed_processors();
   const double all = load.seconds * CPU_COUNT(&allowed), busy = busy_seconds();
   load.known = busy_ >= 0 && busy >= 0;
-  if (load.known && all > 0) load.others = std::clamp((busy - busy_ - (own_seconds() - own_)) / all, 0.0, 1.0);
+  const double own = seconds_by(CLOCK_PROCESS_CPUTIME_ID) - own_;
+  if (load.known && all > 0) load.others = std::clamp((busy - busy_ - own) / all, 0.0, 1.0);
   // The accounting counts in hundredths of a second: a shorter step tells nothing.
   load.most_others = load.seconds > 1 ? load.others : 0;
   return load;

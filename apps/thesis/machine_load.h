@@ -1,10 +1,14 @@
 // Other work of the machine while something was measured.
 #pragma once
 
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace bihive::thesis {
+
+/// CLOCK_MONOTONIC, or processor time of this program or of this thread.
+double seconds_by(clockid_t clock);
 
 /// A stretch of time on the processors that this program may use.
 struct MachineLoad {

@@ -6,13 +6,11 @@
 
 #include <algorithm>
 #include <ctime>
-#include <exception>
 #include <filesystem>
-#include <new>
-#include <string_view>
 #include <utility>
 #include <variant>
 
+#include "../shared/exit_code.h"
 #include "../shared/last_line.h"
 #include "../shared/processor_name.h"
 #include "bihive/base/parallel.h"
@@ -20,15 +18,12 @@
 #include "bihive/base/write_file.h"
 #include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
-#include "bihive/thesis/builtin_values.h"
 #include "claims.h"
 #include "command_line.h"
 #include "report.h"
-#include "steps.h"
 #include "support/interrupt.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
-#include "templates.h"
 
 namespace bihive::thesis {
 namespace {
@@ -37,10 +32,11 @@ namespace fs = std::filesystem;
 using cli::CancellableSection;
 using cli::ThesisOptions;
 
+bool names(const ThesisOptions& options, const std::string& experiment) {
+  return std::count(options.experiments.begin(), options.experiments.end(), experiment) > 0;
+}
 bool asks_for(const ThesisOptions& options, const std::string& experiment) {
-  const std::vector<std::string>& named = options.experiments;
-  return named.empty() || std::count(named.begin(), named.end(), "all") > 0 ||
-         std::count(named.begin(), named.end(), experiment) > 0;
+  return options.experiments.empty() || names(options, "all") || names(options, experiment);
 }
 
 // Other values: the folder must be there, with a file for each experiment that is named. Of `all` it may hold some, and
@@ -48,22 +44,22 @@ bool asks_for(const ThesisOptions& options, const std::string& experiment) {
 void check_values(const ThesisOptions& options) {
   if (options.values.empty()) return;
   if (!fs::is_directory(options.values)) fail({"there is no such folder", options.values, 0, 0, "--values names one"});
-  std::string bundled;
+  std::vector<std::string> bundled;
   bool found = false;
   for (const std::string& id : cli::thesis_experiments()) {
     if (id == "all" || !asks_for(options, id)) continue;
     const std::string file = options.values + "/" + id + "/values.json";
     std::error_code unknown;
-    if (fs::exists(file, unknown) || unknown)
-      found = true;
-    else if (std::count(options.experiments.begin(), options.experiments.end(), id) > 0)
+    const bool here = fs::exists(file, unknown) || unknown;
+    if (!here && names(options, id))
       fail({"there are no values of " + id, file, 0, 0, "leave out --values, or name another experiment"});
-    else
-      bundled += (bundled.empty() ? "" : ", ") + id;
+    if (!here) bundled.push_back(id);
+    found = found || here;
   }
   if (!found)
     fail({"there are no values in it", options.values, 0, 0, "expected " + options.values + "/EXPERIMENT/values.json"});
-  if (!bundled.empty()) warn(options.values + ": holds no values of " + bundled + "; the bundled ones are used");
+  if (!bundled.empty())
+    warn(fmt::format("{}: holds no values of {}; the bundled ones are used", options.values, fmt::join(bundled, ", ")));
 }
 
 void add_experiments(const ThesisOptions& options, Report& report) {
@@ -92,11 +88,8 @@ std::string compiler() {
 
 // An argument of a command line, in quotes if a shell would split it.
 std::string in_shell(const std::string& word) {
-  const bool plain = std::all_of(word.begin(), word.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_./:=,+@%-").find(c) != std::string_view::npos;
-  });
-  if (plain && !word.empty()) return word;
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
@@ -149,7 +142,7 @@ void run_thesis(const ThesisOptions& options, const std::string& command) {
   const CancellableSection section;
   run_steps(report.parts, options.out);
   for (Experiment& part : report.parts) {
-    part.data = part.make_data();
+    part.data = part.make_data(part);
     part.findings = judge(part.values, part.data);
     part.claims = claims_of(part);
   }
@@ -180,36 +173,20 @@ void prepare() {
 __attribute__((section(".preinit_array"), used)) void (*const kFirst)() = prepare;
 
 int run(int argc, const char* const* argv) {
-  try {
-    cli::handle_signals();
-    name_settings_as_options();
-    if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
-    const cli::Request request = cli::parse_command_line(argc, argv);
-    const auto* const options = std::get_if<ThesisOptions>(&request);
-    if (options == nullptr) fail_usage("this program is started by `bihive thesis`");
-    run_thesis(*options, command_of(argc, argv));
-    finish_output();
-    return kSuccess;
-  } catch (const Failure& failure) {
-    say_error(failure.error.to_string());
-    say_lines(failure.shown);
-    return failure.code;
-  } catch (const std::bad_alloc&) {
-    say_no_memory();
-  } catch (const std::exception& error) {
-    say_error(error.what());
-  }
-  return kBadInput;
+  cli::handle_signals();
+  name_settings_as_options();
+  if (const Status status = check_target_environment(); !status) throw Failure{kBadUsage, status.error()};
+  const cli::Request request = cli::parse_command_line(argc, argv);
+  const auto* const options = std::get_if<ThesisOptions>(&request);
+  if (options == nullptr) fail_usage("this program is started by `bihive thesis`");
+  run_thesis(*options, command_of(argc, argv));
+  finish_output();
+  return kSuccess;
 }
 
 }  // namespace
 }  // namespace bihive::thesis
 
 int main(int argc, char** argv) {
-  try {
-    return bihive::thesis::run(argc, argv);
-  } catch (const std::exception&) {
-    bihive::say_no_memory();
-  }
-  return bihive::kBadInput;
+  return bihive::exit_code_of([&] { return bihive::thesis::run(argc, argv); });
 }

@@ -35,13 +35,11 @@ Json time_in_turns(const Experiment& experiment, const Tracer& one, const Tracer
   if (times.is_null()) return {};
   BIHIVE_CHECK_EQ(hits[0], hits[1]);
   const std::vector<double> one_ms = times["one"], other_ms = times["other"];
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < one_ms.size(); ++i) ratios.push_back(one_ms[i] / other_ms[i]);
   const double ns = 1e6 / static_cast<double>(std::max<std::size_t>(rays.size(), 1));
   return {{"rays", rays.size()},
           {"ns", median(one_ms) * ns},
           {"other_ns", median(other_ms) * ns},
-          {"ratio", quartiles_json(ratios)}};
+          {"ratio", quartiles_json(ratios_of(one_ms, other_ms))}};
 }
 
 // The tests of one leaf over those of brute force, where this share of the rays meets the box. The test of the box
@@ -90,9 +88,9 @@ Json time_one_leaf(const Experiment& experiment) {
 }  // namespace
 
 void section_d(Experiment& experiment) {
-  experiment.add("one_leaf", 2, 40, [&experiment] { return time_one_leaf(experiment); });
-  experiment.make_data = [&experiment] {
-    const Json* const result = experiment.result("one_leaf");
+  experiment.add("one_leaf", 2, 40, time_one_leaf);
+  experiment.make_data = [](const Experiment& timed) {
+    const Json* const result = timed.result("one_leaf");
     return result == nullptr ? Json::object() : *result;
   };
 }

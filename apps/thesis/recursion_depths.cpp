@@ -28,7 +28,7 @@ Json transparent_sphere(const Scene& scene, const Tracer& tracer, const Image& i
   return {{"pixels", brightness.size()},
           {"coloured_pixels", coloured},
           {"brightness_median", median(brightness)},
-          {"brightness_mean", spread_of(brightness).mean}};
+          {"brightness_mean", mean_and_sd(brightness).mean}};
 }
 
 struct Drawing {
@@ -117,10 +117,9 @@ Json data_of(const Experiment& experiment) {
 
 void figure_4_2(Experiment& experiment) {
   for (const std::int64_t depth : experiment.values.integers("depths"))
-    experiment.add(fmt::format("depth{}", depth), 0.2, 3,
-                   [&experiment, depth] { return draw_depth(experiment, depth); });
-  experiment.add("coding", 0.1, 1.5, [&experiment] { return draw_coding(experiment); });
-  experiment.make_data = [&experiment] { return data_of(experiment); };
+    experiment.add(fmt::format("depth{}", depth), 0.2, 3, draw_depth, depth);
+  experiment.add("coding", 0.1, 1.5, draw_coding);
+  experiment.make_data = data_of;
 }
 
 }  // namespace bihive::thesis

@@ -9,7 +9,6 @@
 #include "bihive/base/write_file.h"
 #include "bihive/image/html_text.h"
 #include "claims.h"
-#include "templates.h"
 
 namespace bihive::thesis {
 namespace {
@@ -120,18 +119,14 @@ Json view_of(const Experiment& part) {
 
 // How many claims have each verdict: words_of(), with a "count".
 Json counts_of(const Report& report) {
-  Json counts = Json::array();
+  Json counts = Json::object();
   for (const Experiment& part : report.parts)
     for (const Json& claim : part.claims) {
-      auto found =
-          std::find_if(counts.begin(), counts.end(), [&](const Json& each) { return each["words"] == claim["words"]; });
-      if (found == counts.end()) {
-        counts.push_back(words_of(claim["verdict"].get<std::string>()));
-        found = counts.end() - 1;
-      }
-      (*found)["count"] = found->value("count", 0) + 1;
+      Json& one = counts[claim["words"].get<std::string>()];
+      if (one.is_null()) one = words_of(claim["verdict"].get<std::string>());
+      one["count"] = one.value("count", 0) + 1;
     }
-  return counts;
+  return Json::array_t(counts.begin(), counts.end());
 }
 
 }  // namespace

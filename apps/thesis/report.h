@@ -8,7 +8,6 @@
 //   {{> findings}}      the experiment's findings as a table
 #pragma once
 
-#include <list>
 #include <string>
 #include <vector>
 

@@ -105,7 +105,7 @@ Json scene_facts(const Scene& scene) {
           {"transparent", material_facts(material_of(scene, 1))}};
 }
 
-Json draw_scenario(const Experiment& experiment, std::int64_t number, const std::string& name) {
+Json draw_scenario(const Experiment& experiment, std::int64_t number) {
   // Make the scene, and draw it.
   const Values& values = experiment.values;
   const Scene scene = values.scene(number, values.integer("spheres"), experiment.settings.seed);
@@ -125,7 +125,7 @@ Json draw_scenario(const Experiment& experiment, std::int64_t number, const std:
     (rows[spheres.x()[static_cast<std::size_t>(id)]] < kRegular ? clustered : in_rows).push_back(id);
   const SphereSet::Bounds bounds = spheres.bounds();
   return {{"number", number},
-          {"picture", write_picture(experiment, name + ".png", *image)},
+          {"picture", write_picture(experiment, fmt::format("scenario{}.png", number), *image)},
           {"spheres", spheres.size()},
           {"in_view", spheres_in_view(scene, settings)},
           {"extent",
@@ -142,13 +142,11 @@ Json draw_scenario(const Experiment& experiment, std::int64_t number, const std:
 }  // namespace
 
 void figure_4_1(Experiment& experiment) {
-  for (const std::int64_t number : experiment.values.integers("scenarios")) {
-    const std::string name = fmt::format("scenario{}", number);
-    experiment.add(name, 0.5, 3, [&experiment, number, name] { return draw_scenario(experiment, number, name); });
-  }
-  experiment.make_data = [&experiment] {
+  for (const std::int64_t number : experiment.values.integers("scenarios"))
+    experiment.add(fmt::format("scenario{}", number), 0.5, 3, draw_scenario, number);
+  experiment.make_data = [](const Experiment& drawn) {
     Json data = Json::object();
-    for (const auto& [name, result] : experiment.finished()) {
+    for (const auto& [name, result] : drawn.finished()) {
       data["scene"] = result->at("scene");
       data["scenarios"][name] = *result;
       data["scenarios"][name].erase("scene");

@@ -178,16 +178,13 @@ void add_colours(Json& data) {
 }  // namespace
 
 void figure_4_3(Experiment& experiment) {
-  for (const std::string& letter : kLetters)
-    experiment.add(letter, 0.1, 0.7, [&experiment, letter] { return draw_tree(experiment, letter); });
-  for (const auto& pair : kIdentical)
-    experiment.add(pair.first + "_and_" + pair.second, 0.1, 0.7,
-                   [&experiment, pair] { return compare(experiment, pair.first, pair.second); });
-  experiment.add("as_stated", 0.01, 0.01, [&experiment] { return build_as_stated(experiment); });
-  experiment.make_data = [&experiment] {
+  for (const std::string& letter : kLetters) experiment.add(letter, 0.1, 0.7, draw_tree, letter);
+  for (const auto& [first, second] : kIdentical)
+    experiment.add(first + "_and_" + second, 0.1, 0.7, compare, first, second);
+  experiment.add("as_stated", 0.01, 0.01, build_as_stated);
+  experiment.make_data = [](const Experiment& drawn) {
     Json data = Json::object();
-    for (const auto& [name, result] : experiment.finished())
-      (name.size() == 1 ? data["trees"][name] : data[name]) = *result;
+    for (const auto& [name, result] : drawn.finished()) (name.size() == 1 ? data["trees"][name] : data[name]) = *result;
     if (data.contains("trees") && data["trees"].size() == kLetters.size()) add_colours(data);
     return data;
   };

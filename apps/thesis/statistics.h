@@ -1,30 +1,29 @@
-// Repeated measurements: their spreads, over seeds and over rounds.
+// Repeated measurements: their spreads, over seeds and over rounds; of trees, what explains their differences.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bihive/base/parallel.h"
+#include "bihive/bih/tree.h"
 #include "bihive/math/quartiles.h"
 #include "experiment.h"
 
 namespace bihive::thesis {
 
-/// Mean and sample standard deviation; the deviation of a single value is 0.
-struct Spread {
-  double mean = 0, sd = 0;
-  Json json() const { return {{"mean", mean}, {"sd", sd}}; }
-};
-inline Spread spread_of(const std::vector<double>& values) {
-  if (values.empty()) return {};
-  const double n = static_cast<double>(values.size());
-  double sum = 0, squares = 0;
-  for (const double value : values) sum += value;
-  for (const double value : values) squares += (value - sum / n) * (value - sum / n);
-  return {sum / n, values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0};
+inline Json mean_and_sd_json(const std::vector<double>& values) {
+  const MeanAndSd all = mean_and_sd(values);
+  return {{"mean", all.mean}, {"sd", all.sd}};
+}
+
+/// Element by element, as many as both have.
+inline std::vector<double> ratios_of(const std::vector<double>& above, const std::vector<double>& below) {
+  std::vector<double> ratios(std::min(above.size(), below.size()));
+  std::transform(above.begin(), above.begin() + std::ssize(ratios), below.begin(), ratios.begin(), std::divides<>());
+  return ratios;
 }
 
 inline Json quartiles_json(const std::vector<double>& values) {
@@ -48,5 +47,18 @@ auto over_seeds(const Experiment& experiment, std::int64_t scenario, std::int64_
 /// favours none: every other round runs backwards. A first round warms up and does not count. Null if cancelled.
 using Contestants = std::vector<std::pair<std::string, std::function<void()>>>;
 Json times_in_turns(const Experiment& experiment, int rounds, const Contestants& contestants);
+
+/// The properties of trees by which the text explains its results: spheres per leaf and their variation, the frequency
+/// of overlaps and gaps between children, and the empty space cut off. [{"scenario", "spheres", "max_prims", "seeds",
+/// "spheres_per_leaf", "spheres_per_leaf_sd", "depth_sd", "overlap_percent", "gap_percent", "void_percent",
+/// "void_percent_by_level", "coinciding"}]: means over the seeds 1, 2, ... of all trees of these scenarios, numbers of
+/// spheres and MAX_PRIMS. Deviations are over the leaves of a tree; overlaps and gaps are percent of the split nodes.
+/// Void is the exact volume, in percent of the root's box, that no node of a level covers (and no leaf above it): by
+/// level from the root on, and on the tenth. Empty if cancelled.
+Json measure_reasons(const Experiment& experiment, const std::vector<std::int64_t>& spheres,
+                     const std::vector<std::int64_t>& max_prims, std::int64_t seeds);
+
+/// Percent of the split nodes whose children overlap.
+double overlap_percent(const Tree& tree);
 
 }  // namespace bihive::thesis

@@ -1,5 +1,4 @@
-#include "steps.h"
-
+// The steps of a run, and the files that keep their results.
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/job/messages.h"
+#include "experiment.h"
 
 namespace bihive::thesis {
 namespace {
@@ -37,7 +37,7 @@ bool has_its_pictures(const Json& result, const std::string& folder) {
 // A result of another build may lack what this one reads.
 bool is_readable(Experiment& experiment, const std::string& out) {
   try {
-    experiment.make_data();
+    experiment.make_data(experiment);
   } catch (const Json::exception&) {
     warn(out + "/steps/" + experiment.id + ": holds what this program did not write; the steps are run again");
     return false;

@@ -10,7 +10,6 @@
 #include "bihive/bih/validate.h"
 #include "bihive/image/svg_chart.h"
 #include "statistics.h"
-#include "tree_reasons.h"
 
 namespace bihive::thesis {
 namespace {
@@ -45,8 +44,8 @@ Json measure_tree(const Experiment& experiment, std::int64_t scenario, std::int6
           {"allocated_bytes", tree.allocated_bytes()},
           {"depth_avg", tree_statistics(tree).depth.avg},
           {"seeds", bytes.size()},
-          {"mean", spread_of(bytes).mean},
-          {"sd", spread_of(bytes).sd}};
+          {"mean", mean_and_sd(bytes).mean},
+          {"sd", mean_and_sd(bytes).sd}};
 }
 
 Json measure_scenario(const Experiment& experiment, std::int64_t scenario) {
@@ -83,7 +82,8 @@ Json compare_radii(const Experiment& experiment) {
 }
 
 // As in the thesis: one series for each MAX_PRIMS over the numbers of spheres.
-void draw_chart(const Experiment& experiment, const std::string& name, std::int64_t scenario, const Json& trees) {
+void draw_chart(const Experiment& experiment, const std::string& name, const Json& trees) {
+  const std::int64_t scenario = trees[0]["scenario"];
   ChartData chart{fmt::format("Scenario {}: memory by the text's rule", scenario), "spheres", "kB", {}, {}, false};
   for (const std::int64_t count : experiment.values.integers("spheres_list"))
     chart.categories.push_back(std::to_string(count));
@@ -96,7 +96,8 @@ void draw_chart(const Experiment& experiment, const std::string& name, std::int6
 }
 
 // How often memory or depth grows, or stays equal, from one MAX_PRIMS to the next; predictions that do not hold.
-void add_trees(const Json& trees, Json& data) {
+void add_trees(const Experiment& experiment, const std::string& name, const Json& trees, Json& data) {
+  draw_chart(experiment, name, trees);
   std::int64_t rises = data.value("rises_with_max_prims", 0), not_shallower = data.value("not_shallower", 0),
                missed = data.value("missed_predictions", 0);
   for (std::size_t i = 0; i < trees.size(); ++i) {
@@ -133,19 +134,12 @@ void add_radii(const Json& radii, Json& data) {
 
 void figure_4_5(Experiment& experiment) {
   for (const std::int64_t scenario : experiment.values.integers("scenarios"))
-    experiment.add(fmt::format("scenario{}", scenario), 0.5, 2,
-                   [&experiment, scenario] { return measure_scenario(experiment, scenario); });
-  experiment.add("radius", 0.3, 0.3, [&experiment] { return compare_radii(experiment); });
-  experiment.make_data = [&experiment] {
+    experiment.add(fmt::format("scenario{}", scenario), 0.5, 2, measure_scenario, scenario);
+  experiment.add("radius", 0.3, 0.3, compare_radii);
+  experiment.make_data = [](const Experiment& measured) {
     Json data = Json::object();
-    for (const auto& [name, result] : experiment.finished()) {
-      if (name == "radius") {
-        add_radii(*result, data);
-        continue;
-      }
-      draw_chart(experiment, name, result->at(0)["scenario"], *result);
-      add_trees(*result, data);
-    }
+    for (const auto& [name, result] : measured.finished())
+      name == "radius" ? add_radii(*result, data) : add_trees(measured, name, *result, data);
     return data;
   };
 }

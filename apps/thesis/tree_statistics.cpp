@@ -6,7 +6,6 @@
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
 #include "statistics.h"
-#include "tree_reasons.h"
 
 namespace bihive::thesis {
 namespace {
@@ -66,7 +65,7 @@ Json count_trees(const Experiment& experiment, const Column& column) {
   for (const auto& [row, ours] : this_seed.items()) {
     std::vector<double> sample;
     for (const Json& tree : trees) sample.push_back(tree[row]);
-    result["rows"][row] = spread_of(sample).json();
+    result["rows"][row] = mean_and_sd_json(sample);
     result["rows"][row]["this"] = ours.get<double>();
   }
   for (const Json& tree : trees)
@@ -98,16 +97,22 @@ Json remove_levels(const Experiment& experiment) {
   const SphereSet spheres = spheres_of(values, values.integer("balanced.scenario"), experiment.settings.seed);
   BuildParameters build{values.integers("max_prims_list").front(), kUnlimited};
   Json levels = Json::array();
-  std::int64_t depth = tree_statistics(build_reference_tree(spheres, build)).depth.max;
-  for (; depth >= 1; --depth) {
-    build.max_depth = depth;
+  build.max_depth = tree_statistics(build_reference_tree(spheres, build)).depth.max;
+  for (; build.max_depth >= 1; --build.max_depth) {
     const TreeStatistics s = tree_statistics(build_reference_tree(spheres, build));
-    levels.push_back({{"max_depth", depth},
+    levels.push_back({{"max_depth", build.max_depth},
                       {"min", s.spheres_per_leaf.min},
                       {"max", s.spheres_per_leaf.max},
                       {"even", s.spheres_per_leaf.min == s.spheres_per_leaf.max && s.depth.min == s.depth.max}});
   }
   return levels;
+}
+
+// How many percent lower each of the later numbers is.
+std::vector<double> percent_saved(const std::vector<double>& before, const std::vector<double>& after) {
+  std::vector<double> percent = ratios_of(after, before);
+  for (double& each : percent) each = 100 * (1 - each);
+  return percent;
 }
 
 class TableData {
@@ -167,13 +172,10 @@ class TableData {
 
   void add_reductions() {
     for (const std::int64_t scenario : scenarios_) {
-      const Json &before = result({scenario, max_prims_.front()})->at("nodes"),
-                 &after = result({scenario, max_prims_.back()})->at("nodes");
-      std::vector<double> sample;
-      for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
-        sample.push_back(100 * (1 - after[i].get<double>() / before[i].get<double>()));
-      data_["reduction_percent"][fmt::format("scenario{}", scenario)] = spread_of(sample).json();
-      data_["reduction_order"][std::to_string(scenario)] = spread_of(sample).mean;
+      const auto nodes = [&](std::int64_t max_prims) { return result({scenario, max_prims})->at("nodes"); };
+      const Json saved = mean_and_sd_json(percent_saved(nodes(max_prims_.front()), nodes(max_prims_.back())));
+      data_["reduction_percent"][fmt::format("scenario{}", scenario)] = saved;
+      data_["reduction_order"][std::to_string(scenario)] = saved["mean"];
     }
   }
 
@@ -226,15 +228,11 @@ class TableData {
     double least = 1e9;
     for (const std::int64_t scenario : scenarios_) {
       const std::vector<double> first = of({scenario, max_prims_.front()}), last = of({scenario, max_prims_.back()});
-      std::vector<double> gains, speed_ups;
-      for (std::size_t i = 0; i < std::min(first.size(), last.size()); ++i) {
-        gains.push_back(100 * (1 - last[i] / first[i]));
-        speed_ups.push_back(first[i] / last[i]);
-      }
-      data_["build"]["gain_percent"][std::to_string(scenario)] = quartiles_json(gains);
-      if (median(speed_ups) > least) continue;
-      least = median(speed_ups);
-      data_["build"]["least_speed_up"] = quartiles_json(speed_ups);
+      data_["build"]["gain_percent"][std::to_string(scenario)] = quartiles_json(percent_saved(first, last));
+      const Json speed_up = quartiles_json(ratios_of(first, last));
+      if (speed_up["median"] > least) continue;
+      least = speed_up["median"];
+      data_["build"]["least_speed_up"] = speed_up;
     }
   }
 
@@ -264,17 +262,15 @@ class TableData {
 void table_4_2(Experiment& experiment) {
   for (const Column& column : columns_of(experiment.values)) {
     const bool grid = scenario_of(column.scenario) == Scenario::grid;
-    experiment.add(column.step(), grid ? 0.1 : 0.3, grid ? 0.1 : 2,
-                   [&experiment, column] { return count_trees(experiment, column); });
+    experiment.add(column.step(), grid ? 0.1 : 0.3, grid ? 0.1 : 2, count_trees, column);
   }
-  experiment.add("build_times", 0.5, 2.5, [&experiment] { return time_builds(experiment); });
-  experiment.add("levels", 0.1, 0.1, [&experiment] { return remove_levels(experiment); });
-  experiment.add("reasons", 0.5, 0.5, [&experiment] {
-    const Values& values = experiment.values;
-    return measure_reasons(experiment, {values.integer("spheres")}, values.integers("max_prims_list"),
-                           experiment.settings.quick ? 3 : 20);
+  experiment.add("build_times", 0.5, 2.5, time_builds);
+  experiment.add("levels", 0.1, 0.1, remove_levels);
+  experiment.add("reasons", 0.5, 0.5, [](const Experiment& of) {
+    return measure_reasons(of, {of.values.integer("spheres")}, of.values.integers("max_prims_list"),
+                           of.settings.quick ? 3 : 20);
   });
-  experiment.make_data = [&experiment] { return TableData(experiment).all(); };
+  experiment.make_data = [](const Experiment& counted) { return TableData(counted).all(); };
 }
 
 }  // namespace bihive::thesis

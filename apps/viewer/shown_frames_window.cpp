@@ -6,7 +6,6 @@
 
 #include "../shared/processor_name.h"
 #include "bihive/simd/target.h"
-#include "bihive/thesis/builtin_values.h"
 #include "bihive/thesis/shown_frames.h"
 #include "picture_texture.h"
 #include "window.h"

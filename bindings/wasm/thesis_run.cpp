@@ -8,7 +8,6 @@
 #include "answers.h"
 #include "bihive/base/json_text.h"
 #include "bihive/base/parallel.h"
-#include "bihive/thesis/builtin_values.h"
 #include "bihive/thesis/frame_rates_report.h"
 #include "bihive/thesis/stated_values.h"
 
@@ -49,16 +48,14 @@ MeasuringDevice device_from(const std::string& text) {
 
 }  // namespace
 
-Result<FrameEngine> ThesisRun::engine() {
-  FrameEngine engine;
-  if (!gpu_) return engine;
+Result<GlRenderer*> ThesisRun::renderer() {
+  if (!gpu_) return static_cast<GlRenderer*>(nullptr);
   if (!renderer_) {
     Result<GlRenderer> renderer = GlRenderer::create(browser_gl_functions());
     if (!renderer) return renderer.error();
     renderer_ = std::move(*renderer);
   }
-  engine.gl = &*renderer_;
-  return engine;
+  return &*renderer_;
 }
 
 std::string ThesisRun::begin(bool quick, const std::string& saved) {
@@ -66,7 +63,7 @@ std::string ThesisRun::begin(bool quick, const std::string& saved) {
     Result<FrameRatePlan> plan = stated_plan();
     if (!plan) return failure(plan.error());
     if (quick) plan = plan->quickly();
-    const Result<FrameEngine> drawn_by = engine();
+    const Result<GlRenderer*> drawn_by = renderer();
     if (!drawn_by) return failure(drawn_by.error());
     const std::optional<SavedFrameRates> earlier = saved_frame_rates(saved);
     const bool same = earlier && earlier->engine == name() && earlier->quick == quick &&
@@ -87,7 +84,7 @@ std::string ThesisRun::begin(bool quick, const std::string& saved) {
 
 std::string ThesisRun::begin_pass(double seconds) {
   return with_memory([&] {
-    const Result<FrameEngine> drawn_by = engine();
+    const Result<GlRenderer*> drawn_by = renderer();
     if (!drawn_by) return failure(drawn_by.error());
     Result<FrameRatePlan> plan = stated_plan();
     if (plan && !earlier_) {

@@ -41,7 +41,7 @@ class ThesisRun {
 
  private:
   const char* name() const { return gpu_ ? "gpu" : "cpu"; }
-  Result<FrameEngine> engine();
+  Result<GlRenderer*> renderer();
 
   const bool gpu_;
   std::optional<GlRenderer> renderer_;

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bihive/thesis/builtin_values.h"
 #include "bihive/thesis/frame_rates_report.h"
 
 namespace bihive {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace bihive {
 namespace {
 
@@ -21,6 +23,14 @@ TEST(Quartiles, AreInterpolatedBetweenSortedValues) {
 TEST(Quartiles, MedianIsTheMiddleOne) {
   EXPECT_EQ(median({30, 10, 20}), 20);
   EXPECT_EQ(median({1, 2, 3, 10}), 2.5);
+}
+
+TEST(MeanAndSd, MeanAndDeviationOfASample) {
+  EXPECT_EQ(mean_and_sd({}).mean, 0);
+  EXPECT_EQ(mean_and_sd({3}).mean, 3);
+  EXPECT_EQ(mean_and_sd({3}).sd, 0);
+  EXPECT_EQ(mean_and_sd({1, 2, 3, 6}).mean, 3);
+  EXPECT_DOUBLE_EQ(mean_and_sd({1, 2, 3, 6}).sd, std::sqrt(14.0 / 3));
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "bihive/image/image.h"
-#include "bihive/thesis/builtin_values.h"
 
 namespace bihive {
 namespace {

@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "bihive/thesis/builtin_values.h"
-
 namespace bihive {
 namespace {
 

@@ -1,6 +1,7 @@
 #include "bihive/math/quartiles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -23,6 +24,15 @@ Quartiles quartiles_of(std::vector<double> values) {
 
 double median(std::vector<double> values) {
   return quartiles_of(std::move(values)).median;
+}
+
+MeanAndSd mean_and_sd(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const double n = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  for (const double value : values) squares += (value - sum / n) * (value - sum / n);
+  return {sum / n, values.size() > 1 ? std::sqrt(squares / (n - 1)) : 0};
 }
 
 }  // namespace bihive

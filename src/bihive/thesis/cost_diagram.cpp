@@ -16,6 +16,11 @@ constexpr double kDiagramWidth = 480, kLeft = 56, kRight = 12, kTop = 30, kPlotH
 constexpr double kPlotWidth = kDiagramWidth - kLeft - kRight;
 constexpr double kCharacter = 6.6;  // mean width of a character of 12 units
 constexpr double kMarker = 4.2;
+constexpr const char* kWinsLabel = "won:";
+
+// Axes: an inner node in sphere tests, a leaf in inner nodes.
+constexpr double kLeastInner = 0.25, kMostInner = 16, kMostLeaf = 1;
+constexpr int kColumns = 120, kRows = 51;
 
 // Shades from pale to deep blue, in equal steps of sRGB.
 std::string colour_of(int wins, int most) {
@@ -28,12 +33,7 @@ std::string colour_of(int wins, int most) {
 
 class Diagram {
  public:
-  explicit Diagram(const CostDiagram& data) : data_(data) {
-    log_low_ = std::log10(data.inner.front());
-    log_high_ = std::log10(data.inner.back());
-    cell_width_ = kPlotWidth / static_cast<double>(data.inner.size());
-    cell_height_ = kPlotHeight / static_cast<double>(data.leaf.size());
-  }
+  explicit Diagram(const CostDiagram& data) : data_(data) {}
 
   std::string svg() {
     cells();
@@ -54,8 +54,8 @@ class Diagram {
 
   // The middle of the first column lies half a cell right of the axis, and so does that of the first row.
   double x_of(double inner) const {
-    const double part = (std::log10(inner) - log_low_) / (log_high_ - log_low_);
-    return kLeft + cell_width_ / 2 + part * (kPlotWidth - cell_width_);
+    const double low = std::log10(data_.inner.front()), high = std::log10(data_.inner.back());
+    return kLeft + cell_width_ / 2 + (std::log10(inner) - low) / (high - low) * (kPlotWidth - cell_width_);
   }
   double y_of(double leaf) const {
     const double part = (leaf - data_.leaf.front()) / (data_.leaf.back() - data_.leaf.front());
@@ -122,20 +122,19 @@ class Diagram {
 
   // Drawn at the edge, with its numbers, if it lies outside.
   void mark(const CostPoint& point) {
-    const auto inner_within = [this](double inner) {
+    const auto x_within = [this](double inner) {
       return x_of(std::clamp(inner, data_.inner.front(), data_.inner.back()));
     };
-    const auto leaf_within = [this](double leaf) {
-      return y_of(std::clamp(leaf, data_.leaf.front(), data_.leaf.back()));
-    };
-    const double x = inner_within(point.inner), y = leaf_within(point.leaf);
-    const bool outside = x != x_of(point.inner) || y != y_of(point.leaf);
+    const auto y_within = [this](double leaf) { return y_of(std::clamp(leaf, data_.leaf.front(), data_.leaf.back())); };
+    const double inner = point.fitted.costs().inner, inner_error = point.fitted.inner_error;
+    const double leaf = point.fitted.costs().leaf, leaf_error = point.fitted.leaf_error;
+    const double x = x_within(inner), y = y_within(leaf);
+    const bool outside = x != x_of(inner) || y != y_of(leaf);
     if (!outside)
-      body_ +=
-          fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>",
-                      inner_within(point.inner - point.inner_error), y, inner_within(point.inner + point.inner_error),
-                      x, leaf_within(point.leaf - point.leaf_error), leaf_within(point.leaf + point.leaf_error));
-    const std::string numbers = fmt::format("{:.2f}, {:.2f}", point.inner, point.leaf);
+      body_ += fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>",
+                           x_within(inner - inner_error), y, x_within(inner + inner_error), x,
+                           y_within(leaf - leaf_error), y_within(leaf + leaf_error));
+    const std::string numbers = fmt::format("{:.2f}, {:.2f}", inner, leaf);
     body_ += fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {}</title></circle>",
                          x, y, kMarker, escape_html(point.name), numbers);
 
@@ -155,8 +154,8 @@ class Diagram {
 
   void legend() {
     double x = kLeft, y = kTop + kPlotHeight + 3.2 * kLine;
-    text(x, y, data_.wins_label);
-    x += kCharacter * static_cast<double>(data_.wins_label.size()) + 6;
+    text(x, y, kWinsLabel);
+    x += kCharacter * static_cast<double>(std::string_view(kWinsLabel).size()) + 6;
     for (int wins = 0; wins <= data_.most_wins; ++wins, x += 18) {
       body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"18\" height=\"14\" fill=\"{}\"/>", x, y - 11,
                            colour_of(wins, data_.most_wins));
@@ -164,7 +163,6 @@ class Diagram {
                            2 * wins > data_.most_wins ? "on-deep" : "on-pale", wins);
     }
     const auto entry = [&](const char* style, const std::string& words) {
-      if (words.empty()) return;
       y += kLine;
       body_ += fmt::format("<path class=\"{}\" d=\"M{} {:.1f}h22\"/>", style, kLeft, y - 4);
       text(kLeft + 28, y, words);
@@ -180,11 +178,38 @@ class Diagram {
 
   const CostDiagram& data_;
   std::vector<Name> names_;
-  double log_low_ = 0, log_high_ = 1, cell_width_ = 1, cell_height_ = 1, height_ = 0;
+  const double cell_width_ = kPlotWidth / static_cast<double>(columns());
+  const double cell_height_ = kPlotHeight / static_cast<double>(rows());
+  double height_ = 0;
   std::string body_;
 };
 
 }  // namespace
+
+CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<FigureWork>& seeds) {
+  const std::string winner = tree_name(pattern.max_prims);
+  CostDiagram diagram;
+  diagram.title = fmt::format("Configurations won by {}", winner);
+  diagram.pattern_label =
+      fmt::format("the text: {} wins {}, {} Scenario {} with {} spheres", winner, pattern.wins,
+                  tree_name(pattern.exception_max_prims), pattern.exception.first, pattern.exception.second);
+  diagram.share_label = fmt::format("the same with at least half of {} seeds", seeds.size());
+  diagram.most_wins = static_cast<int>(work.size());
+  for (int i = 0; i < kColumns; ++i)
+    diagram.inner.push_back(kLeastInner * std::pow(kMostInner / kLeastInner, i / (kColumns - 1.0)));
+  for (int i = 0; i < kRows; ++i) diagram.leaf.push_back(kMostLeaf * i / (kRows - 1));
+  for (const double leaf : diagram.leaf)
+    for (const double inner : diagram.inner) {
+      const StepCosts costs{inner, leaf, 0};
+      diagram.wins.push_back(static_cast<int>(wins_of(work, pattern, costs)));
+      diagram.pattern.push_back(pattern_holds(work, pattern, costs));
+      if (seeds.empty()) continue;
+      const auto with = std::count_if(seeds.begin(), seeds.end(),
+                                      [&](const FigureWork& seed) { return pattern_holds(seed, pattern, costs); });
+      diagram.share.push_back(static_cast<double>(with) / static_cast<double>(seeds.size()));
+    }
+  return diagram;
+}
 
 std::string cost_diagram_svg(const CostDiagram& diagram) {
   return Diagram(diagram).svg();

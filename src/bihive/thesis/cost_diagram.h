@@ -1,32 +1,36 @@
-// The diagram of Figure 4.4: the costs at which each tree wins.
+// The diagram of Figure 4.4: the costs at which each tree wins. For `bihive thesis` and for the page.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bihive/thesis/cost_model.h"
+
 namespace bihive {
 
-/// A measured engine: its fitted costs, with standard errors.
+/// A measured engine.
 struct CostPoint {
   std::string name;
-  double inner = 1, leaf = 0;              ///< as StepCosts has them
-  double inner_error = 0, leaf_error = 0;  ///< standard errors
+  FittedCosts fitted;
 };
 
 struct CostDiagram {
-  std::string title, wins_label;  ///< of the picture and of its legend
-  std::string pattern_label, share_label;
-  std::vector<double> inner;  ///< one per column, ascending, evenly spaced on a logarithmic axis
-  std::vector<double> leaf;   ///< one per row, ascending, evenly spaced
+  std::string title, pattern_label, share_label;  ///< of the picture and of its legend
+  std::vector<double> inner;                      ///< one per column, ascending, evenly spaced on a logarithmic axis
+  std::vector<double> leaf;                       ///< one per row, ascending, evenly spaced
   /// Row by row: the configurations that the tree wins; whether the whole pattern holds; the share of the seeds with
   /// which it does (empty without other seeds).
   std::vector<int> wins;
   std::vector<bool> pattern;
   std::vector<double> share;
   int most_wins = 9;
-  std::vector<CostPoint> points;  ///< those outside the axes are drawn at the edge, with their numbers
+  std::vector<CostPoint> points = {};  ///< those outside the axes are drawn at the edge, with their numbers
 };
+
+/// The diagram without points: an inner node from 1/4 to 16 sphere tests, a leaf from 0 to 1 inner node. `seeds`: the
+/// same work with other seeds, for the share that has the pattern.
+CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, const std::vector<FigureWork>& seeds);
 
 /// An SVG text: colours for wins, an outline around the pattern, a dashed one where half of the seeds have it, and a
 /// point with error bars for each engine.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "bihive/math/quartiles.h"
 
@@ -106,6 +107,10 @@ Solution solve(const std::vector<Row>& rows, const std::array<bool, kUnknowns>& 
 
 }  // namespace
 
+std::string tree_name(std::int64_t max_prims) {
+  return "BIH " + std::to_string(max_prims);
+}
+
 double frames_per_second(const std::vector<double>& frame_ms) {
   return 1000 / median(frame_ms);
 }
@@ -119,6 +124,23 @@ std::int64_t ConfigurationTimes::fastest() const {
 
 double ConfigurationTimes::gain_percent() const {
   return 100 * (frames_per_second(trees.at(fastest())) / frames_per_second(brute) - 1);
+}
+
+Result<WinPattern> stated_pattern(const StatedValues& values) {
+  WinPattern pattern;
+  for (const auto& [name, number] : {std::pair{"winner.max_prims", &pattern.max_prims},
+                                     {"winner.wins", &pattern.wins},
+                                     {"only_rises.scenario", &pattern.exception.first},
+                                     {"only_rises.spheres", &pattern.exception.second}}) {
+    const Result<std::int64_t> value = values.integer(name);
+    if (!value) return value.error();
+    *number = *value;
+  }
+  Result<std::vector<std::int64_t>> among = values.integers("max_prims_list");
+  if (!among) return among.error();
+  pattern.exception_max_prims = among->back();
+  pattern.among = std::move(*among);
+  return pattern;
 }
 
 std::int64_t wins_of(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs) {

@@ -7,8 +7,11 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "bihive/thesis/stated_values.h"
 
 namespace bihive {
 
@@ -45,6 +48,9 @@ struct ConfigurationTimes {
 };
 using EngineTimes = std::map<Configuration, ConfigurationTimes>;
 
+/// The name of a tree in charts and tables: "BIH 8".
+std::string tree_name(std::int64_t max_prims);
+
 /// Frames per second by the median of the rounds.
 double frames_per_second(const std::vector<double>& frame_ms);
 
@@ -55,6 +61,8 @@ struct WinPattern {
   std::int64_t exception_max_prims = 0;
   std::vector<std::int64_t> among;  ///< the MAX_PRIMS that compete
 };
+/// Values winner.* and only_rises.*, the last of max_prims_list. Error: one is missing.
+Result<WinPattern> stated_pattern(const StatedValues& values);
 
 /// The number of configurations that the pattern's tree wins, ties included. The fixed part does not matter.
 std::int64_t wins_of(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs);

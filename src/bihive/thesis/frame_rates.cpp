@@ -4,8 +4,12 @@
 #include <string>
 #include <utility>
 
+#include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/traversal.h"
 #include "bihive/render/renderer.h"
+#include "bihive/scene/camera.h"
 #include "bihive/scene/generators.h"
 
 namespace bihive {
@@ -34,6 +38,29 @@ double cost_of_round(const FrameRatePlan& plan) {
   double sum = 0;
   for (const std::int64_t spheres : plan.spheres) sum += cost_of_round(plan, spheres);
   return sum * static_cast<double>(plan.scenarios.size());
+}
+
+// Means per ray; meaningless after cancellation.
+RayWork counted_work(const Scene& scene, const Tree& tree, const FrameRatePlan& plan, int stride,
+                     const CancelToken* cancel) {
+  const PixelRays pixels(scene.camera, plan.width_px, plan.height_px);
+  const std::int64_t rows = (plan.height_px + stride - 1) / stride, columns = (plan.width_px + stride - 1) / stride;
+  std::vector<CountingObserver> of_rows(static_cast<std::size_t>(rows));
+  parallel_for(plan.threads, rows, [&](std::int64_t row) {
+    if (cancel != nullptr && cancel->cancelled()) return;
+    for (std::int64_t column = 0; column < columns; ++column) {
+      const Ray ray = pixels.at(static_cast<double>(column * stride) + 0.5, static_cast<double>(row * stride) + 0.5);
+      traverse<false>(tree, scene.spheres, ScaledRay(ray, scene.spheres), of_rows[static_cast<std::size_t>(row)]);
+    }
+  });
+  RayWork sum;
+  for (const CountingObserver& row : of_rows) {
+    sum.inner += static_cast<double>(row.node_visits);
+    sum.leaves += static_cast<double>(row.leaf_visits);
+    sum.tests += static_cast<double>(row.sphere_tests);
+  }
+  const double rays = static_cast<double>(rows * columns);
+  return {sum.inner / rays, sum.leaves / rays, sum.tests / rays};
 }
 
 }  // namespace
@@ -76,7 +103,7 @@ FrameRatePlan FrameRatePlan::quickly() const {
   return plan;
 }
 
-Result<FrameRatePlan> FrameRatePlan::within(double seconds, const FrameEngine& engine) const {
+Result<FrameRatePlan> FrameRatePlan::within(double seconds, GlRenderer* gl) const {
   // The time of a small frame by brute force on the most spheres, after one that warms up.
   constexpr int kSmallest = 8;
   FrameRatePlan pilot = smaller(kSmallest);
@@ -86,14 +113,14 @@ Result<FrameRatePlan> FrameRatePlan::within(double seconds, const FrameEngine& e
   pilot.max_prims.clear();
   pilot.rounds = 1;
   pilot.least_ms = 0;
-  FrameRateRun run(pilot, engine);
+  FrameRateRun run(pilot, gl);
   while (!run.finished())
     if (Status status = run.step(); !status) return status.error();
   const double pixels = static_cast<double>(pilot.width_px) * pilot.height_px;
   const double ms_of_a_unit = run.rates().front().frame_ms.front() / pixels / frame_cost(most, false);
 
   // All frames of the run. With a graphics processor each round draws one more, for the scene's upload.
-  const int frames = (rounds + 1) * (engine.gl != nullptr ? 2 : 1);
+  const int frames = (rounds + 1) * (gl != nullptr ? 2 : 1);
   for (int divisor = 1; divisor < kSmallest; ++divisor) {
     const FrameRatePlan plan = smaller(divisor);
     const double area = static_cast<double>(plan.width_px) * plan.height_px;
@@ -124,6 +151,20 @@ int FrameRatePlan::configurations() const {
   return static_cast<int>(scenarios.size() * spheres.size() * (1 + max_prims.size()));
 }
 
+Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel) {
+  FigureWork work;
+  for (const std::int64_t scenario : plan.scenarios)
+    for (const std::int64_t spheres : plan.spheres) {
+      const Result<Scene> scene = plan.scene(scenario, spheres);
+      if (!scene) return scene.error();
+      for (const std::int64_t max_prims : plan.max_prims)
+        work[{scenario, spheres}][std::min(max_prims, spheres)] =
+            counted_work(*scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), plan, stride, cancel);
+      if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
+    }
+  return work;
+}
+
 EngineTimes times_of(const std::vector<MeasuredRate>& rates) {
   EngineTimes times;
   for (const MeasuredRate& rate : rates) {
@@ -133,8 +174,8 @@ EngineTimes times_of(const std::vector<MeasuredRate>& rates) {
   return times;
 }
 
-FrameRateRun::FrameRateRun(FrameRatePlan plan, const FrameEngine& engine)
-    : plan_(std::move(plan)), engine_(engine), all_cost_(cost_of_round(plan_) * (plan_.rounds + 1)) {}
+FrameRateRun::FrameRateRun(FrameRatePlan plan, GlRenderer* gl)
+    : plan_(std::move(plan)), gl_(gl), all_cost_(cost_of_round(plan_) * (plan_.rounds + 1)) {}
 
 double FrameRateRun::seconds_left() const {
   const double measured = done_cost_ - resumed_cost_;
@@ -154,10 +195,9 @@ Status FrameRateRun::build_trees() {
   scene_ = std::make_shared<const Scene>(std::move(*scene));
   group_ = new_group();
   for (const MeasuredRate& rate : group_) {
-    BuildParameters parameters;
-    if (rate.max_prims) parameters.max_prims = *rate.max_prims;
-    Result<Tracer> tracer = Tracer::build(scene_->spheres, rate.max_prims ? engine_.tree : engine_.brute,
-                                          rate.max_prims ? TreeParameters(parameters) : engine_.brute_parameters);
+    Result<Tracer> tracer =
+        rate.max_prims ? Tracer::build(scene_->spheres, Engine::reference, BuildParameters{*rate.max_prims, kUnlimited})
+                       : Tracer::build(scene_->spheres, Engine::brute);
     if (!tracer) return tracer.error();
     tracers_.push_back(std::move(*tracer));
   }
@@ -165,16 +205,16 @@ Status FrameRateRun::build_trees() {
 }
 
 Status FrameRateRun::draw_frame(const RenderSettings& settings, const CancelToken* cancel) {
-  if (engine_.gl == nullptr) {
+  if (gl_ == nullptr) {
     Result<Rendered> rendered = render(*scene_, tracers_[contestant_], settings, {}, cancel, std::move(film_));
     if (!rendered) return rendered.error();
     film_ = std::move(rendered->film);
     return Done{};
   }
-  if (Status status = engine_.gl->begin(scene_->camera, settings); !status) return status;
-  while (!engine_.gl->finished()) {
+  if (Status status = gl_->begin(scene_->camera, settings); !status) return status;
+  while (!gl_->finished()) {
     if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
-    if (Status status = engine_.gl->advance(cancel != nullptr ? kSliceMs : kWholeFrameMs); !status) return status;
+    if (Status status = gl_->advance(cancel != nullptr ? kSliceMs : kWholeFrameMs); !status) return status;
   }
   return Done{};
 }
@@ -182,8 +222,8 @@ Status FrameRateRun::draw_frame(const RenderSettings& settings, const CancelToke
 // Milliseconds of a frame. Draws as many frames as the least time of a round needs.
 Result<double> FrameRateRun::frame_ms(const CancelToken* cancel) {
   const RenderSettings settings = plan_.settings(*scene_);
-  if (engine_.gl != nullptr) {
-    if (Status status = engine_.gl->set_scene(*scene_, tracers_[contestant_].tree()); !status) return status.error();
+  if (gl_ != nullptr) {
+    if (Status status = gl_->set_scene(*scene_, tracers_[contestant_].tree()); !status) return status.error();
     // The first frame with a scene waits for its upload; that wait does not count.
     if (Status status = draw_frame(settings, cancel); !status) return status.error();
   }

@@ -24,8 +24,6 @@
 
 namespace bihive {
 
-struct FrameEngine;
-
 /// The plan: every scenario with every number of spheres, by brute force and by a tree of each MAX_PRIMS.
 struct FrameRatePlan {
   std::vector<std::int64_t> scenarios, spheres, max_prims;  ///< none empty
@@ -45,9 +43,9 @@ struct FrameRatePlan {
   /// A quarter of the width and height and a single round: seconds instead of minutes, with less precise numbers.
   FrameRatePlan quickly() const;
   /// The largest pictures, an integer fraction of this plan's in width and height, with which the whole run takes about
-  /// `seconds` or less on this engine; at least an eighth. A few small frames by brute force are measured for that.
-  /// So the run ends even on a slow GPU.
-  Result<FrameRatePlan> within(double seconds, const FrameEngine& engine) const;
+  /// `seconds` or less; at least an eighth. A few small frames by brute force are measured for that. So the run ends
+  /// even on a slow GPU.
+  Result<FrameRatePlan> within(double seconds, GlRenderer* gl) const;
 
   /// Error: there is no such scenario.
   Result<Scene> scene(std::int64_t scenario, std::int64_t count) const;
@@ -55,13 +53,10 @@ struct FrameRatePlan {
   int configurations() const;
 };
 
-/// An engine with a tree, and its brute force: the same code without a tree, or with a single leaf if it needs one.
-struct FrameEngine {
-  Engine tree = Engine::reference, brute = Engine::brute;
-  TreeParameters brute_parameters = {};
-  /// If it is set, the graphics processor draws the trees of these engines; the renderer loses its scene.
-  GlRenderer* gl = nullptr;
-};
+/// Counts the primary rays of a plan's picture, of every `stride`-th row and column alone: their means in the trees of
+/// the plan's MAX_PRIMS, in all its configurations. A MAX_PRIMS that no leaf reaches means a single leaf, and is stored
+/// under the number of spheres. Error: "cancelled", or there is no such scenario.
+Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel = nullptr);
 
 /// One configuration's times.
 struct MeasuredRate {
@@ -73,10 +68,11 @@ struct MeasuredRate {
 /// The same times by configuration.
 EngineTimes times_of(const std::vector<MeasuredRate>& rates);
 
-/// Measures the configurations of a plan in turn. The engine's renderer must outlive the run.
+/// Measures the configurations of a plan in turn: by the reference engine, or, if `gl` is not null, by the graphics
+/// processor with the same trees. The renderer must outlive the run, and loses its scene.
 class FrameRateRun {
  public:
-  FrameRateRun(FrameRatePlan plan, const FrameEngine& engine);
+  FrameRateRun(FrameRatePlan plan, GlRenderer* gl);
 
   /// Before the first step: continues after the complete rates of an earlier run of the same plan. Rates that are not
   /// whole groups in the order of the plan, with all rounds, are left out, and measured again.
@@ -108,7 +104,7 @@ class FrameRateRun {
   void go_on();
 
   FrameRatePlan plan_;
-  FrameEngine engine_;
+  GlRenderer* gl_;
   std::size_t scenario_ = 0, count_ = 0;  // the group's configuration: positions in the plan
   bool finished_ = false;
   std::vector<MeasuredRate> rates_;

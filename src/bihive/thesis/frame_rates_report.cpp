@@ -8,7 +8,7 @@
 
 #include "bihive/base/json_text.h"
 #include "bihive/math/quartiles.h"
-#include "bihive/thesis/figure_costs.h"
+#include "bihive/thesis/cost_diagram.h"
 
 namespace bihive {
 namespace {
@@ -35,11 +35,9 @@ std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, con
     for (const auto& [configuration, times] : times_of(run.rates()))
       if (configuration.first == scenario) percents.push_back(times.gain_percent());
     if (percents.size() != run.plan().spheres.size()) continue;
-    double sum = 0;
-    for (const double percent : percents) sum += percent;
     const auto [least, most] = std::minmax_element(percents.begin(), percents.end());
     const std::pair<const char*, double> rows[] = {
-        {"least", *least}, {"best", *most}, {"mean", sum / static_cast<double>(percents.size())}};
+        {"least", *least}, {"best", *most}, {"mean", mean_and_sd(percents).mean}};
     for (const auto& [name, percent] : rows) {
       chart.categories.push_back(fmt::format("{} {}", scenario, std::string(name) == "best" ? "most" : name));
       chart.series[0].values.emplace_back(percent);
@@ -77,10 +75,6 @@ std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, 
 }
 
 }  // namespace
-
-std::string tree_name(std::int64_t max_prims) {
-  return fmt::format("BIH {}", max_prims);
-}
 
 ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>& spheres,
                           const std::vector<std::int64_t>& max_prims, const EngineTimes& times) {
@@ -200,8 +194,7 @@ std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const State
   std::vector<std::string> charts;
   if (costs != nullptr && costs->fitted.frames > 0) {
     CostDiagram diagram = cost_diagram(costs->work, costs->pattern, {});
-    const FittedCosts& fitted = costs->fitted;
-    diagram.points = {{here, fitted.costs().inner, fitted.costs().leaf, fitted.inner_error, fitted.leaf_error}};
+    diagram.points = {{here, costs->fitted}};
     charts.push_back(cost_diagram_svg(diagram));
   }
   const auto add = [&charts](std::string chart) {

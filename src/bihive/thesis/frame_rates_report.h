@@ -17,9 +17,6 @@ namespace bihive {
 ChartData frame_rate_bars(std::int64_t scenario, const std::vector<std::int64_t>& spheres,
                           const std::vector<std::int64_t>& max_prims, const EngineTimes& times);
 
-/// The name of a tree in charts and tables: "BIH 8".
-std::string tree_name(std::int64_t max_prims);
-
 /// The measuring machine. `words`: any description. `facts`: names and values for machines ("browser", "gpu").
 struct MeasuringDevice {
   std::string words;

@@ -54,10 +54,9 @@ Status ShownFrames::prepare() {
   // The tracer refers to the spheres of the stored scene.
   tracer_.reset();
   scene_ = std::move(*scene);
-  BuildParameters parameters;
-  if (rate.max_prims) parameters.max_prims = *rate.max_prims;
-  Result<Tracer> tracer = Tracer::build(scene_->spheres, rate.max_prims ? Engine::reference : Engine::automatic,
-                                        rate.max_prims ? TreeParameters(parameters) : TreeParameters());
+  Result<Tracer> tracer =
+      rate.max_prims ? Tracer::build(scene_->spheres, Engine::reference, BuildParameters{*rate.max_prims, kUnlimited})
+                     : Tracer::build(scene_->spheres, Engine::automatic);
   if (!tracer) return tracer.error();
   tracer_ = std::move(*tracer);
   prepared_ = next_;
@@ -104,16 +103,15 @@ void ShownFrames::shown(double now_ms) {
 
 std::string ShownFrames::json(const std::string& by, const std::string& device) const {
   using nlohmann::ordered_json;
-  ordered_json json;
-  json["experiment"] = "shown-frames";
-  json["by"] = by;
-  json["device"] = device;
-  json["width_px"] = plan_.width_px;
-  json["height_px"] = plan_.height_px;
-  json["seconds"] = plan_.seconds;
-  json["threads"] = plan_.threads > 0 ? plan_.threads : hardware_threads();
-  json["complete"] = next_ == rates_.size();
-  json["configurations"] = ordered_json::array();
+  ordered_json json{{"experiment", "shown-frames"},
+                    {"by", by},
+                    {"device", device},
+                    {"width_px", plan_.width_px},
+                    {"height_px", plan_.height_px},
+                    {"seconds", plan_.seconds},
+                    {"threads", plan_.threads > 0 ? plan_.threads : hardware_threads()},
+                    {"complete", next_ == rates_.size()},
+                    {"configurations", ordered_json::array()}};
   for (std::size_t i = 0; i < next_; ++i) {
     const ShownRate& rate = rates_[i];
     json["configurations"].push_back({{"scenario", rate.scenario},

@@ -1,4 +1,4 @@
-// The values that experiments compare with: thesis/<experiment>/values.json (builtin_values.h). Each states its origin:
+// The values that experiments compare with: thesis/<experiment>/values.json. Each states its origin:
 // the text, an inference of ours, or ours alone. The numbers that make the thesis's scenes are in scene/generators.cpp;
 // Figure 4.1 compares the content of those scenes with the text's numbers.
 #pragma once
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/thesis/experiments.h"
 
 namespace bihive {
 
@@ -19,21 +20,13 @@ struct StatedValue {
   bool is_list = false;
   std::string printed;  ///< as the thesis prints it: "printed", unless that is another number; else the value as JSON
   std::string sentence;
-  /// The origin of a value. Only a comparison with "stated" can reproduce the thesis, or differ from it.
-  ///  - "stated": the text says it, of an outcome
-  ///  - "set": the text says it, and our scenes are made with it; it can only be copied well or badly
-  ///  - "fitted": the text says it, and something of ours was made to suit it: the builder, sizes, costs
-  ///  - "inferred": the text is silent or vague; we conclude, choose or read it so, for the reason beside it
-  ///  - "own_check": a result of ours that another implementation or an argument of ours must confirm
-  std::string kind;
+  std::string kind;  ///< "stated", "set", "fitted", "inferred" or "own_check"
 };
 
-/// One experiment's values. Document:
-///   {"experiment": "table-4.2",
-///    "values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
+/// One experiment's values. thesis/README.md describes the document:
+///   {"values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
 ///                                                    "sentence": "Nodes Internal 4,095 ..."}, ...}}
-/// "value" is a number, a list of numbers, or a text. "kind" is one of the five above. "printed" is optional.
-/// "sentence" quotes the text, or gives the reasoning where the value is not the text's. Other members are ignored.
+/// Other members of an entry are ignored.
 class StatedValues {
  public:
   /// Error, with file and location: the document is not as above. `file`: as errors name it.
@@ -54,5 +47,10 @@ class StatedValues {
   std::string file_, text_;
   std::map<std::string, StatedValue> values_;
 };
+
+/// The thesis/*/values.json files embedded in the program (CMake): builtin_values_figure_4_1() and so on.
+#define BIHIVE_DECLARE(name, id, section, title) std::string_view builtin_values_##name();
+BIHIVE_THESIS_EXPERIMENTS(BIHIVE_DECLARE)
+#undef BIHIVE_DECLARE
 
 }  // namespace bihive

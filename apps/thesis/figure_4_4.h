@@ -1,11 +1,14 @@
-// The times of Figure 4.4's frames by the programs that use the text's tree: the thesis program, the reference engine,
-// and the shader.
+// What Figure 4.4 is made of besides the counted work of rays (bihive/thesis/cost_model.h): the times of frames by the
+// programs that use the text's tree (the thesis program, the reference engine, the shader), and the text's claims.
 #pragma once
 
-#include "bihive/thesis/cost_model.h"
+#include "bihive/thesis/frame_rates.h"
 #include "experiment.h"
 
 namespace bihive::thesis {
+
+/// The plan of the values and settings; a fraction of the picture's width and height, another one in a quick run.
+FrameRatePlan plan_of(const Experiment& experiment, int divisor = 1, int quick_divisor = 1);
 
 /// A program whose frames are measured.
 struct TimedProgram {
@@ -26,5 +29,10 @@ Json measure_brute_force(const Experiment& experiment);
 
 /// The frames of a step's result.
 ConfigurationTimes times_of(const Json& result);
+
+/// The quantities that the claims of Figure 4.4 compare, at given costs of the steps of a ray: who wins where, the
+/// shapes of the curves over MAX_PRIMS, the extremes, the gains. Their names are those of the claims' "of" in
+/// thesis/figure-4.4/values.json, after "at.text.".
+Json quantities_at(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs, const Values& values);
 
 }  // namespace bihive::thesis
