@@ -102,7 +102,7 @@ class Strangers(FaultTest):
         os.unlink(self.path("run/3.png"))
         os.symlink("../victim", self.path("run/3.png"))
         said = self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL)
-        self.assertIn("run/3.png: exists already, and was not written by this film", said)
+        self.assertIn("run/3.png: exists already, and was not written by bihive film", said)
         os.unlink(self.path("run/3.png"))
         for name in ("film.json", "film.index"):
             kept = self.read("run/" + name)
@@ -223,14 +223,77 @@ class PicturesThatWereThere(FaultTest):
 
     def test_pictures_without_their_description(self):
         self.film(*self.whole)
+        kept_at = os.stat(self.path("run/0.png")).st_mtime_ns
         os.unlink(self.path("run/film.json"))
-        self.assertIn("run/0.png: exists already", self.fail_input("film", *self.whole, "--view", "normal"))
         # The same film again is the same film.
         self.assertEqual(self.film(*self.whole)["kept"], 6)
-        for name in glob.glob(self.path("run/*.png")) + [self.path("run/film.json")]:
-            os.unlink(name)
-        self.assertEqual(self.film(*self.whole, "--view", "normal")["drawn"], 6)
-        self.assertEqual(self.film(*self.whole, "--view", "normal")["kept"], 6)
+        self.assertEqual(os.stat(self.path("run/0.png")).st_mtime_ns, kept_at)
+        # Another film takes their places, as the message says.
+        other = [*self.whole, "--view", "normal"]
+        said = self.fail_input("film", *other)
+        self.assertIn("remove it to replace its pictures, or name another output", said)
+        os.unlink(self.path("run/film.json"))
+        report = self.film(*other)
+        self.assertEqual((report["drawn"], report["kept"]), (6, 0))
+        self.film("run.xyz", "-o", "new/%d.png", *SMALL, "--view", "normal")
+        self.assertEqual(self.pixels_of_sequence("run"), self.pixels_of_sequence("new"))
+        self.assertEqual(self.film(*other)["kept"], 6)
+
+    def test_only_pictures_of_a_film_are_replaced(self):
+        self.film(*self.whole)
+        os.unlink(self.path("run/film.json"))
+        picture = self.read("run/2.png")
+        other = [*self.whole, "--view", "normal"]
+        for foreign in (b"mine", picture[:-1], picture + b"\0", self.read("run/1.png")):
+            self.write("run/2.png", foreign)
+            before = self.contents()
+            self.assertIn("run/2.png: exists already, and was not written by bihive film; move it away",
+                          self.fail_input("film", *other))
+            self.assertEqual(self.contents(), before)
+        # Without the index, nobody knows whose they are.
+        self.write("run/2.png", picture)
+        os.unlink(self.path("run/film.index"))
+        self.assertIn("run/0.png: exists already", self.fail_input("film", *other))
+        self.assertEqual(self.read("run/2.png"), picture)
+
+    def test_a_film_that_replaces_another_goes_on_after_a_kill(self):
+        self.film(*self.whole)
+        os.unlink(self.path("run/film.json"))
+        # As a run that was killed after two pictures of the new film.
+        other = [*self.whole, "--view", "normal"]
+        old = {name: self.read("run/" + name) for name in ("2.png", "3.png", "4.png", "5.png")}
+        self.film(*other)
+        lines = self.read("run/film.index").splitlines(keepends=True)
+        self.assertEqual(len(lines), 14)
+        self.write("run/film.index", b"".join(lines[:10]) + lines[10][:9])
+        for name, data in old.items():
+            self.write("run/" + name, data)
+        report = self.film(*other)
+        self.assertEqual((report["drawn"], report["kept"]), (4, 2))
+        self.film("run.xyz", "-o", "new/%d.png", *SMALL, "--view", "normal")
+        self.assertEqual(self.pixels_of_sequence("run"), self.pixels_of_sequence("new"))
+
+    def test_a_shorter_film_tells_which_pictures_are_left(self):
+        for shard in ("0/2", "1/2"):
+            self.film(*self.whole, "--shard", shard)
+        self.film("--join", "-o", "run/%d.png")
+        os.unlink(self.path("run/film.json"))
+        said = self.run_bihive("film", *self.whole, "--frames", ":4")
+        self.assertEqual(said.returncode, 0)
+        self.assertIn("run/4.png: is of an earlier film, as is 1 more here; remove what you do not need", said.stderr)
+        os.unlink(self.path("run/5.png"))
+        os.unlink(self.path("run/4.png"))
+        self.assertEqual(self.run_bihive("film", *self.whole, "--frames", ":4").stderr, "")
+
+    def test_shards_replace_pictures_too(self):
+        self.film(*self.whole)
+        os.unlink(self.path("run/film.json"))
+        for shard in ("0/3", "2/3", "1/3"):
+            self.film(*self.whole, "--view", "normal", "--shard", shard)
+        self.film("--join", "-o", "run/%d.png")
+        self.film("run.xyz", "-o", "new/%d.png", *SMALL, "--view", "normal")
+        self.assertEqual(self.pixels_of_sequence("run"), self.pixels_of_sequence("new"))
+        self.assertEqual(self.names("run"), [f"{k}.png" for k in range(6)] + ["film.index", "film.json"])
 
     def test_a_picture_that_has_changed(self):
         self.film(*self.whole)
@@ -261,6 +324,12 @@ class PicturesThatWereThere(FaultTest):
         self.write("run/film.index", index[:10])
         self.assertEqual(self.film(*self.whole)["drawn"], 6)
         self.assertEqual(self.read("run/film.index"), index)
+
+    def test_an_index_that_is_none(self):
+        os.mkdir(self.path("run"))
+        self.write("run/film.index", "Chapter 1\n")
+        self.assertIn("run/film.index: exists already, and was not written by bihive film", self.fail_input("film", *self.whole))
+        self.assertEqual((self.names("run"), self.read("run/film.index")), (["film.index"], b"Chapter 1\n"))
 
     def test_shards_have_indices_of_their_own(self):
         for shard in ("0/2", "1/2"):

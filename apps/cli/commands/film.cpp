@@ -315,8 +315,8 @@ FilmTimes run_film(const FilmOptions& asked) {
     if (!differs.empty())
       fail({"holds pictures of another film: " + differs,
             kind == FilmKind::pictures ? plan_path(options.picture.output) : part_path(options.picture.output), 0, 0,
-            std::string("remove it") + (kind == FilmKind::pictures ? " and its pictures" : "") +
-                " to begin anew, or name another output"});
+            std::string("remove it to ") + (kind == FilmKind::pictures ? "replace its pictures" : "begin anew") +
+                ", or name another output"});
     plan = *folder.kept();
   }
 

@@ -69,17 +69,21 @@ std::size_t whole_lines(std::string_view text) {
   return last == std::string_view::npos ? 0 : last + 1;
 }
 
-std::optional<std::vector<IndexEntry>> index_entries(std::string_view text, std::uint64_t film) {
+std::optional<PictureIndex> read_index(std::string_view text, std::uint64_t film) {
+  // A kill may have truncated the first line.
+  if (text.substr(0, kHead.size()) != kHead.substr(0, text.size())) return std::nullopt;
   text = text.substr(0, whole_lines(text));
-  const std::string head = index_head(film);
-  if (text.substr(0, head.size()) != head) return std::nullopt;
-  std::vector<IndexEntry> entries;
-  for (text.remove_prefix(head.size()); !text.empty();) {
-    const std::size_t end = text.find('\n');
-    if (const std::optional<IndexEntry> entry = entry_of(text.substr(0, end))) entries.push_back(*entry);
-    text.remove_prefix(end + 1);
+  const std::string own_head = index_head(film);
+  PictureIndex index;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (line.substr(0, kHead.size()) == kHead)
+      index.ends_with_own = line == std::string_view(own_head).substr(0, own_head.size() - 1);
+    else if (const std::optional<IndexEntry> entry = entry_of(line))
+      (index.ends_with_own ? index.own : index.earlier).push_back(*entry);
+    text.remove_prefix(line.size() + 1);
   }
-  return entries;
+  return index;
 }
 
 std::string index_name(const std::string& prefix, std::int64_t shard, std::int64_t shards) {
