@@ -241,6 +241,43 @@ class Sequences(FilmTest):
         self.fail("no pair of these files fits")
 
 
+class PercentSigns(FilmTest):
+    """They stand for the number in the name of a sequence's files, and for themselves elsewhere."""
+
+    def test_folders(self):
+        for folder in ("100%_run", "a%b", "%d", "x%03d", "%%", "a%b/c%04d"):
+            os.makedirs(self.path(folder))
+            self.film("run.xyz", "-o", f"{folder}/frame%04d.png", *SMALL, "--frames", ":2")
+            self.assertEqual(self.names(folder), ["frame0000.png", "frame0001.png", "framefilm.index", "framefilm.json"])
+            self.assertEqual(self.read(f"{folder}/frame0001.png"), self.single(f"{folder}/framefilm.json", "--frame", "1"))
+            shutil.rmtree(self.path(folder))
+        self.film("run.xyz", "-o", "made%/%d.png", *SMALL, "--frames", ":2")
+        self.assertEqual(self.names("made%"), ["0.png", "1.png", "film.index", "film.json"])
+
+    def test_names(self):
+        self.film("run.xyz", "-o", "100%%_%02d%%.png", *SMALL, "--frames", ":2")
+        self.assertEqual(self.names(), ["100%_00%.png", "100%_01%.png", "100%_film.index", "100%_film.json", "run.xyz"])
+        self.assertEqual(self.film("run.xyz", "-o", "100%%_%02d%%.png", *SMALL, "--frames", ":2")["kept"], 2)
+        for output in ("100%_%04d.png", "%d_100%.png", "%%.png", "a%d/b.png"):
+            said = self.fail_usage("film", "run.xyz", "-o", output)
+            self.assertIn(f'found "{output}"; name it run/%05d.png; a percent sign in the file\'s name is %%', said)
+
+    def test_films_in_one_file(self):
+        os.makedirs(self.path("a%b/50%d"))
+        outputs = [("run.y4m", []), *([("run.mkv", LOSSLESS)] if HAS_FFMPEG else [])]
+        for name, codec in outputs:
+            shown = self.decoded if codec else self.read
+            self.film("run.xyz", "-o", name, *SMALL, *codec)
+            for output in ("a%b/" + name, "a%b/50%d/%03d-100%%" + name[3:]):
+                self.film("run.xyz", "-o", output, *SMALL, *codec)
+                self.assertEqual(shown(output), shown(name))
+                for shard in ("0/2", "1/2"):
+                    self.film("run.xyz", "-o", output, *SMALL, *codec, "--shard", shard)
+                self.film("--join", "-o", output)
+                self.assertEqual(shown(output), shown(name))
+        self.assertEqual(self.names("a%b/50%d"), sorted(f"%03d-100%%{name[3:]}{end}" for name, _ in outputs for end in ("", ".json")))
+
+
 class Y4m(FilmTest):
     def test_each_picture_has_the_pixels_of_a_single_one(self):
         self.film("run.xyz", "-o", "run.y4m", *SMALL, "--fps", "29.97")

@@ -38,7 +38,7 @@ class FilmSink {
 /// The kinds of films, by the output's ending.
 enum class FilmKind { pictures, y4m, encoded };
 
-/// Fails with kBadUsage on another ending, or on a sequence without a unique position for the number.
+/// Fails with kBadUsage on another ending, or on a sequence whose file name does not have its number in one place.
 FilmKind film_kind(const std::string& output);
 
 /// Fails with kBadUsage if the file to which the film's output leads has another ending.
