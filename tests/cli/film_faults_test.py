@@ -357,6 +357,63 @@ class PicturesThatWereThere(FaultTest):
         self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json"])
 
 
+class FilmsThatWereThere(FaultTest):
+    def outputs(self):
+        return [("run.y4m", []), *([("run.mkv", LOSSLESS)] if HAS_FFMPEG else [])]
+
+    def test_a_finished_film_is_kept(self):
+        for name, codec in self.outputs():
+            words = ["run.xyz", "-o", name, *SMALL, *codec]
+            self.film(*words)
+            before = self.contents()
+            made_at = os.stat(self.path(name)).st_mtime_ns
+            os.symlink(name, self.path("link" + name))
+            for output in (name, "link" + name):
+                report = self.film("run.xyz", "-o", output, *SMALL, *codec)
+                self.assertEqual((report["drawn"], report["kept"], report["pictures"]), (0, 6, 6))
+            os.unlink(self.path("link" + name))
+            self.assertEqual(self.contents(), before)
+            self.assertEqual(os.stat(self.path(name)).st_mtime_ns, made_at)
+            self.assertIn("6 kept from before", self.succeed("film", *words))
+            self.assertEqual(self.single(name + ".json", "--frame", "2")[:4], b"\x89PNG")
+
+    def test_the_film_of_shards_too(self):
+        for shard in ("0/2", "1/2"):
+            self.film("run.xyz", "-o", "run.y4m", *SMALL, "--shard", shard)
+        self.film("--join", "-o", "run.y4m")
+        self.assertEqual(self.film("run.xyz", "-o", "run.y4m", *SMALL)["kept"], 6)
+
+    def test_any_other_is_replaced(self):
+        for name, codec in self.outputs():
+            words = ["run.xyz", "-o", name, *SMALL, *codec]
+            self.write(name, "not a film")
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            film, plan = self.read(name), self.read(name + ".json")
+            for bad in (b"", film[:-1], film + b"\0", film[:50] + b"!" + film[51:]):
+                self.write(name, bad)
+                self.assertEqual(self.film(*words)["drawn"], 6)
+            os.unlink(self.path(name))
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            for bad in (b"", b"{}", plan.replace(b'"hash": "', b'"hash": "0'), plan.replace(b'"bytes"', b'"octets"')):
+                self.write(name + ".json", bad)
+                self.assertEqual(self.film(*words)["drawn"], 6)
+            os.unlink(self.path(name + ".json"))
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            for more in (["--zoom", "2"], ["--fps", "30"], ["--frames", "::2"]):
+                self.assertGreater(self.film(*words, *more)["drawn"], 0)
+            self.write("run.xyz", self.read("run.xyz"))
+            self.assertEqual(self.film(*words)["drawn"], 6)
+
+    @unittest.skipUnless(IS_ROOT, "only root can give files away")
+    def test_so_is_that_of_another_user(self):
+        words = ["run.xyz", "-o", "run.y4m", *SMALL]
+        self.film(*words)
+        for name in ("run.y4m", "run.y4m.json"):
+            os.chown(self.path(name), NOBODY, NOBODY)
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            os.chown(self.path(name), os.geteuid(), -1)
+
+
 class Kills(FaultTest):
     def test_a_kill_before_the_first_picture_leaves_no_folder(self):
         process = self.begin("run.xyz", "-o", "run.y4m", "--size", "4000x4000", "--samples", "256")
@@ -374,6 +431,7 @@ class Kills(FaultTest):
                     self.write("run.y4m.part/" + name, "half")
                 self.assertEqual(self.film("run.xyz", "-o", "run.y4m", *SMALL)["drawn"], 6)
                 self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json"])
+                os.unlink(self.path("run.y4m"))
         # The film's description alone, or with a film that has lost its end.
         self.half_film()
         self.write("run.y4m.part/film.y4m", "YUV4")

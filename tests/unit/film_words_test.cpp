@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/codec_words.h"
+#include "film/content_hash.h"
 #include "film/picture_index.h"
 #include "film/picture_numbers.h"
 

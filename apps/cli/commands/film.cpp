@@ -310,6 +310,11 @@ FilmTimes run_film(const FilmOptions& asked) {
   FilmPlan plan;
   plan.asked = film_asked_for(options, source.count());
   FilmFolder folder(options.picture.output, kind);
+  if (kind != FilmKind::pictures && !options.shard && !folder.kept())
+    if (const std::optional<FilmPlan> made = finished_film(options.picture.output, plan.asked)) {
+      print_film_report(options, *made, {{}, made->asked.pictures, timer.elapsed_ms()});
+      return {};
+    }
   if (folder.kept()) {
     const std::string differs = difference(folder.kept()->asked, plan.asked);
     if (!differs.empty())

@@ -13,6 +13,7 @@
 #include "bihive/job/report_text.h"
 #include "bihive/scene/names.h"
 #include "commands/names.h"
+#include "film/content_hash.h"
 
 namespace bihive::cli {
 namespace {
@@ -132,6 +133,12 @@ FilmPlan::Fixed fixed_of(const ordered_json& value) {
   return fixed;
 }
 
+FilmPlan::Made made_of(const ordered_json& value) {
+  const std::optional<std::uint64_t> hash = hash_from_text(value.at("hash").get<std::string>());
+  if (!hash) throw std::out_of_range("hash");
+  return {whole_of(value.at("bytes"), 0, std::numeric_limits<std::int64_t>::max()), *hash};
+}
+
 }  // namespace
 
 std::string film_plan_to_json(const FilmPlan& plan) {
@@ -141,7 +148,8 @@ std::string film_plan_to_json(const FilmPlan& plan) {
   fixed["range_of_style"] = range_json(plan.fixed.range_of_style);
   fixed["ranges_of_looks"] = ordered_json::array();
   for (const ColourRange& range : plan.fixed.ranges_of_looks) fixed["ranges_of_looks"].push_back(range_json(range));
-  const ordered_json document = {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
+  ordered_json document = {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
+  if (plan.made) document["made"] = {{"bytes", plan.made->bytes}, {"hash", hash_text(plan.made->hash)}};
   return as_text(document, 2) + "\n";
 }
 
@@ -157,6 +165,7 @@ FilmPlan parse_film_plan(const std::string& text, const std::string& path, const
       FilmPlan plan;
       plan.asked = asked_of(document.at("asked"), path);
       plan.fixed = fixed_of(document.at("fixed"));
+      if (document.contains("made")) plan.made = made_of(document.at("made"));
       return plan;
     }
   } catch (const ordered_json::exception&) {

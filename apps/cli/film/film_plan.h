@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,13 @@ struct FilmPlan {
     ColourRange range_of_style;
     std::vector<ColourRange> ranges_of_looks;
   } fixed;
+
+  /// The finished film, if it is one file.
+  struct Made {
+    std::int64_t bytes = 0;
+    std::uint64_t hash = 0;
+  };
+  std::optional<Made> made;
 
   std::int64_t frame_of(std::int64_t picture) const {
     return asked.frames.count == 1 ? asked.frames.first : asked.frames.frame(picture);

@@ -23,9 +23,6 @@ struct IndexEntry {
   }
 };
 
-/// 64-bit FNV-1a; `before`: the hash of the preceding bytes.
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325u);
-
 /// The line that names the film; `film`: hash of its description.
 std::string index_head(std::uint64_t film);
 std::string index_line(const IndexEntry& entry);

@@ -14,28 +14,13 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
 #include "bihive/job/messages.h"
+#include "film/content_hash.h"
 #include "film/film_folder.h"
 #include "film/film_sink.h"
 #include "film/picture_index.h"
 
 namespace bihive::cli {
 namespace {
-
-std::string last_name(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);
-}
-
-std::uint64_t hash_of_file(int file, const std::string& path) {
-  std::uint64_t hash = hash_of("");
-  char buffer[1 << 16];
-  for (;;) {
-    const ssize_t count = read(file, buffer, sizeof(buffer));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail_of_system("cannot be read", path, errno);
-    if (count == 0) return hash;
-    hash = hash_of({buffer, static_cast<std::size_t>(count)}, hash);
-  }
-}
 
 class PictureSequence final : public FilmSink {
  public:
