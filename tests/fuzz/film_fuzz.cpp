@@ -21,7 +21,9 @@ void check_plan(const std::string& text) {
     return fuzz::check_error(failure.error);
   }
   const cli::FilmPlan::Asked& asked = plan.asked;
-  fuzz::require(asked.pictures >= 1 && asked.pictures <= cli::kMostPictures);
+  fuzz::require(asked.pictures >= 1 && asked.pictures <= plan.positions() && plan.positions() <= cli::kMostPictures);
+  for (const std::int64_t k : {std::int64_t{0}, plan.positions() / 2, plan.positions() - 1})
+    fuzz::require(plan.picture_at(k) >= 0 && plan.picture_at(k) < asked.pictures && plan.first_position(k) <= k);
   fuzz::require(plan.fixed.width_px >= 1 && plan.fixed.height_px >= 1);
   fuzz::require(plan.frame_of(0) >= 0 && plan.frame_of(asked.pictures - 1) >= plan.frame_of(0));
   if (const Status status = cli::check_codec_of_file(asked.codec); !status) fuzz::check_error(status.error());

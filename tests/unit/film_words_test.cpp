@@ -13,6 +13,7 @@
 #include "film/content_hash.h"
 #include "film/picture_index.h"
 #include "film/picture_numbers.h"
+#include "film/picture_order.h"
 
 namespace bihive::cli {
 namespace {
@@ -139,6 +140,44 @@ std::vector<std::int64_t> listed(const PictureNumbers& numbers) {
   std::vector<std::int64_t> all;
   for (const std::int64_t number : numbers) all.push_back(number);
   return all;
+}
+
+using Numbers = std::vector<std::int64_t>;
+
+Numbers shown(const PictureOrder& order, std::int64_t pictures) {
+  Numbers all;
+  for (std::int64_t k = 0; k < order.positions(pictures); ++k) all.push_back(order.picture_at(k, pictures));
+  return all;
+}
+
+TEST(PictureOrder, IsThatOfTheOptions) {
+  EXPECT_TRUE(PictureOrder().is_plain());
+  EXPECT_EQ(shown({}, 4), (Numbers{0, 1, 2, 3}));
+  EXPECT_EQ(shown({2, 0, false, false}, 3), (Numbers{0, 0, 0, 1, 2}));
+  EXPECT_EQ(shown({0, 2, false, false}, 3), (Numbers{0, 1, 2, 2, 2}));
+  EXPECT_EQ(shown({0, 0, true, false}, 3), (Numbers{2, 1, 0}));
+  EXPECT_EQ(shown({1, 2, true, false}, 3), (Numbers{2, 2, 1, 0, 0, 0}));
+  EXPECT_EQ(shown({0, 0, false, true}, 4), (Numbers{0, 1, 2, 3, 2, 1}));
+  EXPECT_EQ(shown({1, 1, false, true}, 4), (Numbers{0, 0, 1, 2, 3, 3, 2, 1}));
+  EXPECT_EQ(shown({1, 1, true, true}, 3), (Numbers{2, 2, 1, 0, 0, 1}));
+  EXPECT_EQ(shown({0, 0, true, true}, 2), (Numbers{1, 0}));
+  EXPECT_EQ(shown({1, 2, true, true}, 1), (Numbers{0, 0, 0, 0}));
+}
+
+TEST(PictureOrder, KnowsWhereEachPictureIsShownFirst) {
+  for (std::int64_t pictures = 1; pictures < 6; ++pictures)
+    for (int options = 0; options < 36; ++options) {
+      const PictureOrder order{options % 3, options / 3 % 3, options / 9 % 2 == 1, options / 18 == 1};
+      const Numbers all = shown(order, pictures);
+      EXPECT_LE(order.positions_forth(pictures), order.positions(pictures));
+      std::int64_t drawn = 0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto first = std::find(all.begin(), all.end(), all[k]) - all.begin();
+        EXPECT_EQ(order.first_position(static_cast<std::int64_t>(k), pictures), first) << options << " " << pictures;
+        drawn += first == static_cast<std::ptrdiff_t>(k) ? 1 : 0;
+      }
+      EXPECT_EQ(drawn, pictures) << options;
+    }
 }
 
 TEST(PictureNumbers, OfAFilmTakeNoMoreMemoryThanOne) {

@@ -87,6 +87,10 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   object["input"] = asked.input;
   object["frames"] = {{"first", asked.frames.first}, {"step", asked.frames.step}, {"count", asked.frames.count}};
   object["pictures"] = asked.pictures;
+  object["order"] = {{"hold_first", asked.order.hold_first},
+                     {"hold_last", asked.order.hold_last},
+                     {"reverse", asked.order.reverse},
+                     {"ping_pong", asked.order.ping_pong}};
   object["fps"] = fmt::format("{}/{}", asked.rate.pictures, asked.rate.seconds);
   object["options"] = asked.options;
   object["turntable_deg"] = asked.path.turntable_deg;
@@ -97,6 +101,15 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   return object;
 }
 
+PictureOrder order_of(const ordered_json& value) {
+  PictureOrder order;
+  order.hold_first = whole_of(value.at("hold_first"), 0, kMostPictures);
+  order.hold_last = whole_of(value.at("hold_last"), 0, kMostPictures);
+  order.reverse = value.at("reverse").get<bool>();
+  order.ping_pong = value.at("ping_pong").get<bool>();
+  return order;
+}
+
 FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   FilmPlan::Asked asked;
   asked.program = value.at("program").get<std::string>();
@@ -105,6 +118,8 @@ FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   asked.frames = {whole_of(frames.at("first"), 0, kLastFrame), whole_of(frames.at("step"), 1, kLastFrame),
                   whole_of(frames.at("count"), 1, kMostPictures)};
   asked.pictures = whole_of(value.at("pictures"), 1, kMostPictures);
+  if (value.contains("order")) asked.order = order_of(value.at("order"));
+  if (asked.order.positions(asked.pictures) > kMostPictures) throw std::out_of_range("order");
   const Result<FrameRate> rate = frame_rate_from(value.at("fps").get<std::string>());
   if (!rate) throw std::out_of_range("fps");
   asked.rate = *rate;

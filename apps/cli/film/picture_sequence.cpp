@@ -18,6 +18,7 @@
 #include "film/film_folder.h"
 #include "film/film_sink.h"
 #include "film/picture_index.h"
+#include "support/interrupt.h"
 
 namespace bihive::cli {
 namespace {
@@ -41,11 +42,7 @@ class PictureSequence final : public FilmSink {
   void add(const FilmPicture& picture) override {
     const std::string bytes = value_or_fail(encode_png(picture.pixels, picture.text, form_.dots_per_inch));
     const OwnFolder& folder = film_.folder();
-    if (!index_) open_index(folder);
-    // The index gets the picture before it exists, so a kill leaves no unknown picture.
-    const IndexEntry entry{picture.number, bytes.size(), hash_of(bytes)};
-    if (!contains(own_, entry)) append(index_line(entry));
-    place(folder, picture.number, bytes);
+    add_bytes(folder, picture.number, bytes);
     last_added_ = picture.number;
     film_.keep();
   }
@@ -56,6 +53,7 @@ class PictureSequence final : public FilmSink {
   void finish() override {
     if (form_.store) return;
     const OwnFolder& folder = film_.folder();
+    for_each_repeated([&](std::int64_t number, std::int64_t first) { repeat(folder, number, first); });
     if (!warn_of_earlier(folder)) indices_.insert(indices_.end(), earlier_indices_.begin(), earlier_indices_.end());
     indices_.erase(std::remove(indices_.begin(), indices_.end(), index_name_), indices_.end());
     if (indices_.empty()) return;
@@ -96,15 +94,46 @@ class PictureSequence final : public FilmSink {
 
   // An existing picture belongs to the film, or to an earlier one whose description is gone; others are refused.
   void find_pictures(const OwnFolder& folder) {
-    for (const std::int64_t number : form_.wanted) {
-      const std::string name = name_of(number);
-      if (!folder.has(name)) continue;
-      const std::optional<IndexEntry> there = existing_picture(folder, number);
-      if (there && contains(own_, *there))
-        whole_.add(number);
-      else if (!there || !contains(earlier_, *there))
-        refuse(folder.path_of(name));
-    }
+    for (const std::int64_t number : form_.wanted)
+      if (is_whole(folder, number)) whole_.add(number);
+    for_each_repeated([&](std::int64_t number, std::int64_t) { is_whole(folder, number); });
+  }
+
+  // False: there is none, or that of an earlier film.
+  bool is_whole(const OwnFolder& folder, std::int64_t number) const {
+    const std::string name = name_of(number);
+    if (!folder.has(name)) return false;
+    const std::optional<IndexEntry> there = existing_picture(folder, number);
+    if (there && contains(own_, *there)) return true;
+    if (!there || !contains(earlier_, *there)) refuse(folder.path_of(name));
+    return false;
+  }
+
+  // Calls visit(position, first position of the same picture).
+  template <class Visit>
+  void for_each_repeated(const Visit& visit) const {
+    if (form_.store) return;
+    for (std::int64_t number = 0; number < form_.order.positions(form_.pictures); ++number)
+      if (const std::int64_t first = form_.order.first_position(number, form_.pictures); first != number)
+        visit(number, first);
+  }
+
+  // A copy of a picture that is shown again.
+  void repeat(const OwnFolder& folder, std::int64_t number, std::int64_t first) {
+    if (CancellableSection::token().cancelled()) throw Interrupted{};
+    if (is_whole(folder, number)) return;
+    const std::string path = folder.path_of(name_of(first));
+    const std::optional<Descriptor> file = folder.open_picture(name_of(first));
+    if (!file) fail({"has vanished while the film was made", path, 0, 0, "run the same again"});
+    add_bytes(folder, number, value_or_fail(read_descriptor(file->get(), path)));
+  }
+
+  // The index gets the picture before it exists, so a kill leaves no unknown picture.
+  void add_bytes(const OwnFolder& folder, std::int64_t number, const std::string& bytes) {
+    if (!index_) open_index(folder);
+    const IndexEntry entry{number, bytes.size(), hash_of(bytes)};
+    if (!contains(own_, entry)) append(index_line(entry));
+    place(folder, number, bytes);
   }
 
   // As the index would list it; nothing if it is not a file of this user.
@@ -140,7 +169,7 @@ class PictureSequence final : public FilmSink {
   bool warn_of_earlier(const OwnFolder& folder) const {
     std::int64_t first = -1, last = -1, count = 0;
     for (const IndexEntry& entry : earlier_) {
-      if (entry.number == last || form_.wanted.contains(entry.number)) continue;
+      if (entry.number == last || entry.number < form_.order.positions(form_.pictures)) continue;
       if (existing_picture(folder, entry.number) != entry) continue;
       last = entry.number;
       if (count++ == 0) first = last;
