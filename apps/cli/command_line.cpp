@@ -205,6 +205,13 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
   add_value(command, "--fps", options.rate, "N", "Pictures per second (25), also 29.97 or 30000/1001", frame_rate_from);
   add_integer(command, "--pictures", options.pictures, 1, kUnlimited,
               "Number of pictures of an input with one frame (ten seconds, or all keys)");
+  add_integer(command, "--hold-first", options.order.hold_first, 0, kMostPictures,
+              "Show the first picture N more times (0)");
+  add_integer(command, "--hold-last", options.order.hold_last, 0, kMostPictures,
+              "Show the last picture N more times (0)");
+  command.add_flag("--reverse", options.order.reverse, "Show the pictures backwards");
+  command.add_flag("--ping-pong", options.order.ping_pong,
+                   "Show the pictures forwards, then backwards, without the ends: the film loops");
   add_value(command, "--turntable", options.turntable_deg, "DEG",
             "Rotation of the camera around the scene, over the whole film",
             [](const std::string& text) { return number_from_text(text, -1e6, 1e6); });

@@ -102,7 +102,7 @@ class Strangers(FaultTest):
         os.unlink(self.path("run/3.png"))
         os.symlink("../victim", self.path("run/3.png"))
         said = self.fail_input("film", "run.xyz", "-o", "run/%d.png", *SMALL)
-        self.assertIn("run/3.png: exists already, and was not written by this film", said)
+        self.assertIn("run/3.png: exists already, and was not written by bihive film", said)
         os.unlink(self.path("run/3.png"))
         for name in ("film.json", "film.index"):
             kept = self.read("run/" + name)
@@ -223,14 +223,77 @@ class PicturesThatWereThere(FaultTest):
 
     def test_pictures_without_their_description(self):
         self.film(*self.whole)
+        kept_at = os.stat(self.path("run/0.png")).st_mtime_ns
         os.unlink(self.path("run/film.json"))
-        self.assertIn("run/0.png: exists already", self.fail_input("film", *self.whole, "--view", "normal"))
         # The same film again is the same film.
         self.assertEqual(self.film(*self.whole)["kept"], 6)
-        for name in glob.glob(self.path("run/*.png")) + [self.path("run/film.json")]:
-            os.unlink(name)
-        self.assertEqual(self.film(*self.whole, "--view", "normal")["drawn"], 6)
-        self.assertEqual(self.film(*self.whole, "--view", "normal")["kept"], 6)
+        self.assertEqual(os.stat(self.path("run/0.png")).st_mtime_ns, kept_at)
+        # Another film takes their places, as the message says.
+        other = [*self.whole, "--view", "normal"]
+        said = self.fail_input("film", *other)
+        self.assertIn("remove it to replace its pictures, or name another output", said)
+        os.unlink(self.path("run/film.json"))
+        report = self.film(*other)
+        self.assertEqual((report["drawn"], report["kept"]), (6, 0))
+        self.film("run.xyz", "-o", "new/%d.png", *SMALL, "--view", "normal")
+        self.assertEqual(self.pixels_of_sequence("run"), self.pixels_of_sequence("new"))
+        self.assertEqual(self.film(*other)["kept"], 6)
+
+    def test_only_pictures_of_a_film_are_replaced(self):
+        self.film(*self.whole)
+        os.unlink(self.path("run/film.json"))
+        picture = self.read("run/2.png")
+        other = [*self.whole, "--view", "normal"]
+        for foreign in (b"mine", picture[:-1], picture + b"\0", self.read("run/1.png")):
+            self.write("run/2.png", foreign)
+            before = self.contents()
+            self.assertIn("run/2.png: exists already, and was not written by bihive film; move it away",
+                          self.fail_input("film", *other))
+            self.assertEqual(self.contents(), before)
+        # Without the index, nobody knows whose they are.
+        self.write("run/2.png", picture)
+        os.unlink(self.path("run/film.index"))
+        self.assertIn("run/0.png: exists already", self.fail_input("film", *other))
+        self.assertEqual(self.read("run/2.png"), picture)
+
+    def test_a_film_that_replaces_another_goes_on_after_a_kill(self):
+        self.film(*self.whole)
+        os.unlink(self.path("run/film.json"))
+        # As a run that was killed after two pictures of the new film.
+        other = [*self.whole, "--view", "normal"]
+        old = {name: self.read("run/" + name) for name in ("2.png", "3.png", "4.png", "5.png")}
+        self.film(*other)
+        lines = self.read("run/film.index").splitlines(keepends=True)
+        self.assertEqual(len(lines), 14)
+        self.write("run/film.index", b"".join(lines[:10]) + lines[10][:9])
+        for name, data in old.items():
+            self.write("run/" + name, data)
+        report = self.film(*other)
+        self.assertEqual((report["drawn"], report["kept"]), (4, 2))
+        self.film("run.xyz", "-o", "new/%d.png", *SMALL, "--view", "normal")
+        self.assertEqual(self.pixels_of_sequence("run"), self.pixels_of_sequence("new"))
+
+    def test_a_shorter_film_tells_which_pictures_are_left(self):
+        for shard in ("0/2", "1/2"):
+            self.film(*self.whole, "--shard", shard)
+        self.film("--join", "-o", "run/%d.png")
+        os.unlink(self.path("run/film.json"))
+        said = self.run_bihive("film", *self.whole, "--frames", ":4")
+        self.assertEqual(said.returncode, 0)
+        self.assertIn("run/4.png: is of an earlier film, as is 1 more here; remove what you do not need", said.stderr)
+        os.unlink(self.path("run/5.png"))
+        os.unlink(self.path("run/4.png"))
+        self.assertEqual(self.run_bihive("film", *self.whole, "--frames", ":4").stderr, "")
+
+    def test_shards_replace_pictures_too(self):
+        self.film(*self.whole)
+        os.unlink(self.path("run/film.json"))
+        for shard in ("0/3", "2/3", "1/3"):
+            self.film(*self.whole, "--view", "normal", "--shard", shard)
+        self.film("--join", "-o", "run/%d.png")
+        self.film("run.xyz", "-o", "new/%d.png", *SMALL, "--view", "normal")
+        self.assertEqual(self.pixels_of_sequence("run"), self.pixels_of_sequence("new"))
+        self.assertEqual(self.names("run"), [f"{k}.png" for k in range(6)] + ["film.index", "film.json"])
 
     def test_a_picture_that_has_changed(self):
         self.film(*self.whole)
@@ -262,6 +325,12 @@ class PicturesThatWereThere(FaultTest):
         self.assertEqual(self.film(*self.whole)["drawn"], 6)
         self.assertEqual(self.read("run/film.index"), index)
 
+    def test_an_index_that_is_none(self):
+        os.mkdir(self.path("run"))
+        self.write("run/film.index", "Chapter 1\n")
+        self.assertIn("run/film.index: exists already, and was not written by bihive film", self.fail_input("film", *self.whole))
+        self.assertEqual((self.names("run"), self.read("run/film.index")), (["film.index"], b"Chapter 1\n"))
+
     def test_shards_have_indices_of_their_own(self):
         for shard in ("0/2", "1/2"):
             self.film(*self.whole, "--shard", shard)
@@ -288,6 +357,63 @@ class PicturesThatWereThere(FaultTest):
         self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json"])
 
 
+class FilmsThatWereThere(FaultTest):
+    def outputs(self):
+        return [("run.y4m", []), *([("run.mkv", LOSSLESS)] if HAS_FFMPEG else [])]
+
+    def test_a_finished_film_is_kept(self):
+        for name, codec in self.outputs():
+            words = ["run.xyz", "-o", name, *SMALL, *codec]
+            self.film(*words)
+            before = self.contents()
+            made_at = os.stat(self.path(name)).st_mtime_ns
+            os.symlink(name, self.path("link" + name))
+            for output in (name, "link" + name):
+                report = self.film("run.xyz", "-o", output, *SMALL, *codec)
+                self.assertEqual((report["drawn"], report["kept"], report["pictures"]), (0, 6, 6))
+            os.unlink(self.path("link" + name))
+            self.assertEqual(self.contents(), before)
+            self.assertEqual(os.stat(self.path(name)).st_mtime_ns, made_at)
+            self.assertIn("6 kept from before", self.succeed("film", *words))
+            self.assertEqual(self.single(name + ".json", "--frame", "2")[:4], b"\x89PNG")
+
+    def test_the_film_of_shards_too(self):
+        for shard in ("0/2", "1/2"):
+            self.film("run.xyz", "-o", "run.y4m", *SMALL, "--shard", shard)
+        self.film("--join", "-o", "run.y4m")
+        self.assertEqual(self.film("run.xyz", "-o", "run.y4m", *SMALL)["kept"], 6)
+
+    def test_any_other_is_replaced(self):
+        for name, codec in self.outputs():
+            words = ["run.xyz", "-o", name, *SMALL, *codec]
+            self.write(name, "not a film")
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            film, plan = self.read(name), self.read(name + ".json")
+            for bad in (b"", film[:-1], film + b"\0", film[:50] + b"!" + film[51:]):
+                self.write(name, bad)
+                self.assertEqual(self.film(*words)["drawn"], 6)
+            os.unlink(self.path(name))
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            for bad in (b"", b"{}", plan.replace(b'"hash": "', b'"hash": "0'), plan.replace(b'"bytes"', b'"octets"')):
+                self.write(name + ".json", bad)
+                self.assertEqual(self.film(*words)["drawn"], 6)
+            os.unlink(self.path(name + ".json"))
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            for more in (["--zoom", "2"], ["--fps", "30"], ["--frames", "::2"]):
+                self.assertGreater(self.film(*words, *more)["drawn"], 0)
+            self.write("run.xyz", self.read("run.xyz"))
+            self.assertEqual(self.film(*words)["drawn"], 6)
+
+    @unittest.skipUnless(IS_ROOT, "only root can give files away")
+    def test_so_is_that_of_another_user(self):
+        words = ["run.xyz", "-o", "run.y4m", *SMALL]
+        self.film(*words)
+        for name in ("run.y4m", "run.y4m.json"):
+            os.chown(self.path(name), NOBODY, NOBODY)
+            self.assertEqual(self.film(*words)["drawn"], 6)
+            os.chown(self.path(name), os.geteuid(), -1)
+
+
 class Kills(FaultTest):
     def test_a_kill_before_the_first_picture_leaves_no_folder(self):
         process = self.begin("run.xyz", "-o", "run.y4m", "--size", "4000x4000", "--samples", "256")
@@ -305,6 +431,7 @@ class Kills(FaultTest):
                     self.write("run.y4m.part/" + name, "half")
                 self.assertEqual(self.film("run.xyz", "-o", "run.y4m", *SMALL)["drawn"], 6)
                 self.assertEqual(self.names(), ["run.xyz", "run.y4m", "run.y4m.json"])
+                os.unlink(self.path("run.y4m"))
         # The film's description alone, or with a film that has lost its end.
         self.half_film()
         self.write("run.y4m.part/film.y4m", "YUV4")

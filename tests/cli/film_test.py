@@ -241,6 +241,184 @@ class Sequences(FilmTest):
         self.fail("no pair of these files fits")
 
 
+class Orders(FilmTest):
+    """Held ends, backwards, there and back: each picture is drawn once."""
+
+    # The frames, the order, and the numbers of the pictures in the film without it.
+    ORDERS = [
+        ([], ["--hold-first", "2"], [0, 0, 0, 1, 2, 3, 4, 5]),
+        ([], ["--hold-last", "3"], [0, 1, 2, 3, 4, 5, 5, 5, 5]),
+        ([], ["--reverse"], [5, 4, 3, 2, 1, 0]),
+        ([], ["--ping-pong"], [0, 1, 2, 3, 4, 5, 4, 3, 2, 1]),
+        ([], ["--reverse", "--ping-pong", "--hold-first", "1", "--hold-last", "2"], [5, 5, 4, 3, 2, 1, 0, 0, 0, 1, 2, 3, 4]),
+        (["--frames", "1:6:2"], ["--reverse", "--hold-last", "1"], [2, 1, 0, 0]),
+        (["--frames", "2"], ["--ping-pong", "--hold-first", "3"], [0, 0, 0, 0]),
+    ]
+
+    def cases(self):
+        """The output and codec of a film, its frames and order, the pictures of the film without this order, and its own."""
+        for output, codec in (("s/%02d.png", []), ("run.y4m", []), ("run.mkv", LOSSLESS)):
+            if codec and not HAS_FFMPEG:
+                continue
+            plain = {}
+            for frames, order, expected in self.ORDERS[1::3] if codec else self.ORDERS:
+                key = "".join(frames)
+                plain[key] = plain[key] if key in plain else self.plain(output, codec, frames)
+                yield output, [*SMALL, *codec, *frames, *order], len(plain[key]), [plain[key][k] for k in expected]
+
+    def pictures(self, output):
+        """Those of a film, each as some bytes; and no film is there any more."""
+        if output.endswith(".png"):
+            folder = os.path.dirname(output)
+            found = [self.read(f"{folder}/{name}") for name in self.names(folder) if name.endswith(".png")]
+            shutil.rmtree(self.path(folder))
+            return found
+        self.assertNotIn(output + ".part", self.names())
+        y4m = output.endswith(".y4m")
+        data = self.read(output).split(b"\n", 1)[1] if y4m else self.decoded(output)
+        size = 3 * 48 * 32 + (len(b"FRAME\n") if y4m else 0)
+        os.unlink(self.path(output))
+        return [data[at : at + size] for at in range(0, len(data), size)]
+
+    def plain(self, output, codec, frames):
+        """The pictures of the film in its usual order."""
+        self.film("run.xyz", "-o", output, *SMALL, *codec, *frames)
+        return self.pictures(output)
+
+    def test_each_picture_is_drawn_once(self):
+        for output, words, count, expected in self.cases():
+            report = self.film("run.xyz", "-o", output, *words)
+            self.assertEqual((report["pictures"], report["drawn"], report["kept"]), (len(expected), count, 0), words)
+            self.assertEqual(self.film("run.xyz", "-o", output, *words)["drawn"], 0)
+            self.assertEqual(self.pictures(output), expected, words)
+
+    def test_shards(self):
+        for output, words, count, expected in self.cases():
+            shards = [self.film("run.xyz", "-o", output, *words, "--shard", f"{i}/4") for i in (3, 0, 2, 1)]
+            self.assertEqual(sum(shard["drawn"] for shard in shards), count, words)
+            self.assertEqual(self.film("--join", "-o", output)["pictures"], len(expected))
+            if output.endswith(".png"):
+                self.assertEqual(self.film("run.xyz", "-o", output, *words)["kept"], count)
+            self.assertEqual(self.pictures(output), expected, words)
+
+    @unittest.skipUnless(HAS_FFMPEG, "there is no ffmpeg here")
+    def test_films_for_players(self):
+        for name in ("run.mp4", "run.webm"):
+            self.film("run.xyz", "-o", name, *SMALL, "--ping-pong", "--hold-last", "2", "--reverse")
+            self.assertEqual(len(self.decoded(name)), 12 * 3 * 48 * 32)
+
+    def test_repeated_pictures_of_a_sequence(self):
+        words = ["run.xyz", "-o", "s/%02d.png", *SMALL, "--ping-pong"]
+        self.assertIn("6 pictures of 48 x 32, 4 shown again; ", self.succeed("film", *words))
+        before = self.contents()
+        # A copy that is gone is copied again, and a picture that is gone is drawn again.
+        os.unlink(self.path("s/08.png"))
+        self.assertEqual(self.film(*words)["drawn"], 0)
+        os.unlink(self.path("s/02.png"))
+        self.assertEqual(self.film(*words)["drawn"], 1)
+        self.assertEqual(self.contents(), before)
+        self.write("s/08.png", "mine")
+        self.assertIn("s/08.png: exists already, and was not written by bihive film", self.fail_input("film", *words))
+        # The same pictures in another order are another film.
+        os.unlink(self.path("s/08.png"))
+        self.assertIn("its order was", self.fail_input("film", *words[:-1], "--reverse"))
+        os.unlink(self.path("s/film.json"))
+        said = self.run_bihive("film", *words[:-1], "--reverse").stderr
+        self.assertIn("s/06.png: is of an earlier film, as are 2 more here", said)
+        for name in ("06", "07", "09"):
+            os.unlink(self.path(f"s/{name}.png"))
+        found = self.pictures("s/%02d.png")
+        self.assertEqual(found[::-1], self.plain("s/%02d.png", [], []))
+
+    def test_a_picture_of_such_a_film(self):
+        plain = self.plain("s/%d.png", [], [])
+        self.film("run.xyz", "-o", "run.y4m", *SMALL, "--reverse", "--hold-first", "2", "--ping-pong")
+        for which, k in ((["--picture", "1"], 5), (["--picture", "3"], 4), (["--picture", "11"], 4), (["--frame", "1"], 1)):
+            self.assertEqual(self.single("run.y4m.json", *which), plain[k])
+        self.assertIn("no picture 12: its last one is 11",
+                      self.fail_usage("render", "run.xyz", "--film", "run.y4m.json", "--picture", "12", "-o", "x.png"))
+
+    def test_a_camera_that_moves_goes_back_too(self):
+        words = ["run.xyz", "-o", "a/%d.png", *SMALL, "--turntable", "90", "--frames", "0", "--pictures", "4"]
+        self.film(*words)
+        self.film(*words[:2], "b/%d.png", *words[3:], "--reverse")
+        self.assertEqual([self.read(f"b/{k}.png") for k in range(4)], [self.read(f"a/{3 - k}.png") for k in range(4)])
+
+    def test_a_film_that_was_killed_on_its_way_back(self):
+        words = ["run.xyz", "-o", "run.y4m", *SMALL, "--ping-pong", "--hold-last", "1"]
+        self.film(*words)
+        data, plan = self.read("run.y4m"), self.read("run.y4m.json")
+        size = 3 * 48 * 32 + len("FRAME\n")
+        for left, drawn in ((10, 0), (2 * size + 1, 0), (4 * size, 0), (4 * size + 1, 0), (7 * size, 2)):
+            os.unlink(self.path("run.y4m"))
+            os.mkdir(self.path("run.y4m.part"), 0o700)
+            self.write("run.y4m.part/film.json", plan)
+            self.write("run.y4m.part/film.y4m", data[:-left])
+            self.assertEqual(self.film(*words)["drawn"], drawn, left)
+            self.assertEqual(self.read("run.y4m"), data)
+
+    @unittest.skipUnless(HAS_FFMPEG, "there is no ffmpeg here")
+    def test_an_encoded_film_that_was_stopped(self):
+        self.write("run.xyz", frames_of(12))
+        words = ["run.xyz", "-o", "run.mkv", "--size", "300x200", "--style", "plain", "--samples", "16", *LOSSLESS, "--ping-pong"]
+        process = self.begin(*words)
+        self.wait_for(lambda: glob.glob(self.path("run.mkv.part/picture-00000001.png")))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=PATIENCE_S), 130)
+        process.communicate()
+        there = len(glob.glob(self.path("run.mkv.part/picture-*.png")))
+        report = self.film(*words)
+        self.assertEqual((report["kept"], report["drawn"], report["pictures"]), (there, 12 - there, 22))
+        self.film(*words[:2], "all/%03d.png", *words[3:-3], "--ping-pong")
+        self.assertEqual(self.decoded("run.mkv"), self.pixels_of_sequence("all"))
+        self.assertEqual(self.names(), ["all", "run.mkv", "run.mkv.json", "run.xyz"])
+
+    def test_wrong_orders(self):
+        film = ["film", "run.xyz", "-o", "x.y4m"]
+        for more in (["--hold-first", "-1"], ["--hold-last", "1.5"], ["--hold-last", "100000000"], ["--hold-first", "1e3"]):
+            self.fail_usage(*film, *more)
+        self.assertIn("a film has at most 100,000,000 pictures", self.fail_usage(*film, "--hold-last", "99999999"))
+        for more in (["--reverse"], ["--ping-pong"], ["--hold-first", "1"]):
+            self.assertIn("--join takes the film's output alone", self.fail_usage("film", "--join", "-o", "x.y4m", *more))
+
+
+class PercentSigns(FilmTest):
+    """They stand for the number in the name of a sequence's files, and for themselves elsewhere."""
+
+    def test_folders(self):
+        for folder in ("100%_run", "a%b", "%d", "x%03d", "%%", "a%b/c%04d"):
+            os.makedirs(self.path(folder))
+            self.film("run.xyz", "-o", f"{folder}/frame%04d.png", *SMALL, "--frames", ":2")
+            self.assertEqual(self.names(folder), ["frame0000.png", "frame0001.png", "framefilm.index", "framefilm.json"])
+            self.assertEqual(self.read(f"{folder}/frame0001.png"), self.single(f"{folder}/framefilm.json", "--frame", "1"))
+            shutil.rmtree(self.path(folder))
+        self.film("run.xyz", "-o", "made%/%d.png", *SMALL, "--frames", ":2")
+        self.assertEqual(self.names("made%"), ["0.png", "1.png", "film.index", "film.json"])
+
+    def test_names(self):
+        self.film("run.xyz", "-o", "100%%_%02d%%.png", *SMALL, "--frames", ":2")
+        self.assertEqual(self.names(), ["100%_00%.png", "100%_01%.png", "100%_film.index", "100%_film.json", "run.xyz"])
+        self.assertEqual(self.film("run.xyz", "-o", "100%%_%02d%%.png", *SMALL, "--frames", ":2")["kept"], 2)
+        for output in ("100%_%04d.png", "%d_100%.png", "%%.png", "a%d/b.png"):
+            said = self.fail_usage("film", "run.xyz", "-o", output)
+            self.assertIn(f'found "{output}"; name it run/%05d.png; a percent sign in the file\'s name is %%', said)
+
+    def test_films_in_one_file(self):
+        os.makedirs(self.path("a%b/50%d"))
+        outputs = [("run.y4m", []), *([("run.mkv", LOSSLESS)] if HAS_FFMPEG else [])]
+        for name, codec in outputs:
+            shown = self.decoded if codec else self.read
+            self.film("run.xyz", "-o", name, *SMALL, *codec)
+            for output in ("a%b/" + name, "a%b/50%d/%03d-100%%" + name[3:]):
+                self.film("run.xyz", "-o", output, *SMALL, *codec)
+                self.assertEqual(shown(output), shown(name))
+                for shard in ("0/2", "1/2"):
+                    self.film("run.xyz", "-o", output, *SMALL, *codec, "--shard", shard)
+                self.film("--join", "-o", output)
+                self.assertEqual(shown(output), shown(name))
+        self.assertEqual(self.names("a%b/50%d"), sorted(f"%03d-100%%{name[3:]}{end}" for name, _ in outputs for end in ("", ".json")))
+
+
 class Y4m(FilmTest):
     def test_each_picture_has_the_pixels_of_a_single_one(self):
         self.film("run.xyz", "-o", "run.y4m", *SMALL, "--fps", "29.97")

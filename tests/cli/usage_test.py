@@ -49,7 +49,7 @@ class Help(ProgramTest):
             "render": "-o --size --crop --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
             "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --radius --radius-scale "
             "--recenter --frame --json --count --seed",
-            "film": "-o --frames --fps --pictures --turntable --camera-keys --colour-range --codec --shard --join --size --samples --json",
+            "film": "-o --frames --fps --pictures --hold-first --hold-last --reverse --ping-pong --turntable --camera-keys --colour-range --codec --shard --join --size --samples --json",
             "stats": "--max-prims --max-depth --json --count --radius --seed",
             "trace": "--rays --t --id --any --plane --engine --threads --count --radius --seed",
             "scene": "--count --radius --seed -o",

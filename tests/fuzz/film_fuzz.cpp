@@ -21,7 +21,9 @@ void check_plan(const std::string& text) {
     return fuzz::check_error(failure.error);
   }
   const cli::FilmPlan::Asked& asked = plan.asked;
-  fuzz::require(asked.pictures >= 1 && asked.pictures <= cli::kMostPictures);
+  fuzz::require(asked.pictures >= 1 && asked.pictures <= plan.positions() && plan.positions() <= cli::kMostPictures);
+  for (const std::int64_t k : {std::int64_t{0}, plan.positions() / 2, plan.positions() - 1})
+    fuzz::require(plan.picture_at(k) >= 0 && plan.picture_at(k) < asked.pictures && plan.first_position(k) <= k);
   fuzz::require(plan.fixed.width_px >= 1 && plan.fixed.height_px >= 1);
   fuzz::require(plan.frame_of(0) >= 0 && plan.frame_of(asked.pictures - 1) >= plan.frame_of(0));
   if (const Status status = cli::check_codec_of_file(asked.codec); !status) fuzz::check_error(status.error());
@@ -31,12 +33,14 @@ void check_plan(const std::string& text) {
 }
 
 void check_index(std::string_view text) {
-  const auto entries = cli::index_entries(text, kFilm);
-  if (!entries) return;
-  std::string written = cli::index_head(kFilm);
-  for (const cli::IndexEntry& entry : *entries) written += cli::index_line(entry);
-  const auto again = cli::index_entries(written, kFilm);
-  fuzz::require(again && *again == *entries);
+  const auto index = cli::read_index(text, kFilm);
+  if (!index) return;
+  std::string written = cli::index_head(kFilm + 1);
+  for (const cli::IndexEntry& entry : index->earlier) written += cli::index_line(entry);
+  written += cli::index_head(kFilm);
+  for (const cli::IndexEntry& entry : index->own) written += cli::index_line(entry);
+  const auto again = cli::read_index(written, kFilm);
+  fuzz::require(again && again->own == index->own && again->earlier == index->earlier && again->ends_with_own);
 }
 
 }  // namespace

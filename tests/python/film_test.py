@@ -70,6 +70,19 @@ class Films(ProgramTest):
         with self.assertRaisesRegex(bh.Error, "frames: "):
             bh.film(self.path("run.xyz"), self.path("d.mp4"), frames="9:12", **OPTIONS)
 
+    def test_orders_of_files(self):
+        self.write("run.xyz", "".join(f"2\n\nC {x} 0 0\nO 0 0 0\n" for x in (2, 3, 4)))
+        first = bh.render(bh.read(self.path("run.xyz"), frame=0), **OPTIONS)
+        pictures = [bh.render(bh.read(self.path("run.xyz"), frame=i), camera=first, **OPTIONS) for i in range(3)]
+        bh.film(self.path("run.xyz"), self.path("a.mp4"), reverse=True, ping_pong=False, hold_last=2, **OPTIONS)
+        self.assert_film("a.mp4", [pictures[k] for k in (2, 1, 0, 0, 0)])
+        bh.film(self.path("run.xyz"), self.path("b.mp4"), ping_pong=True, hold_first=1, **OPTIONS)
+        self.assert_film("b.mp4", [pictures[k] for k in (0, 0, 1, 2, 1)])
+        with self.assertRaisesRegex(bh.UsageError, "reverse: expected True or False"):
+            bh.film(self.path("run.xyz"), self.path("c.mp4"), reverse=2, **OPTIONS)
+        with self.assertRaisesRegex(bh.UsageError, "hold_last: is for a film of a file"):
+            bh.film([first], self.path("c.mp4"), hold_last=2, **OPTIONS)
+
     def test_failures_leave_nothing(self):
         frames = [bh.Spheres(np.zeros((1, 3)), radius=1)] * 2
 

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "film/codec_words.h"
+#include "film/content_hash.h"
 #include "film/picture_index.h"
 #include "film/picture_numbers.h"
+#include "film/picture_order.h"
 
 namespace bihive::cli {
 namespace {
@@ -67,11 +70,33 @@ TEST(CodecOfFile, ErrorsShowNoControlCharacters) {
 TEST(PictureIndex, HoldsWhatWasWritten) {
   const IndexEntry one{0, 120, hash_of("one")}, two{7, 99, hash_of("two")};
   const std::string text = index_head(5) + index_line(one) + index_line(two);
-  const auto entries = index_entries(text, 5);
-  ASSERT_TRUE(entries);
-  EXPECT_EQ(*entries, (std::vector<IndexEntry>{one, two}));
-  EXPECT_FALSE(index_entries(text, 6));
+  const auto index = read_index(text, 5);
+  ASSERT_TRUE(index);
+  EXPECT_EQ(index->own, (std::vector<IndexEntry>{one, two}));
+  EXPECT_TRUE(index->earlier.empty() && index->ends_with_own);
   EXPECT_EQ(whole_lines(text), text.size());
+}
+
+TEST(PictureIndex, KnowsThePicturesOfOtherFilms) {
+  const IndexEntry one{0, 120, hash_of("one")}, two{7, 99, hash_of("two")}, three{0, 1, hash_of("three")};
+  const std::string first = index_head(5) + index_line(one), text = first + index_head(6) + index_line(two);
+  for (const auto& [whole, film] : {std::pair(text, 6), std::pair(text, 5), std::pair(text, 4)}) {
+    const auto index = read_index(whole, static_cast<std::uint64_t>(film));
+    ASSERT_TRUE(index);
+    EXPECT_EQ(index->own.size(), film == 4 ? 0u : 1u) << film;
+    EXPECT_EQ(index->earlier.size(), film == 4 ? 2u : 1u) << film;
+    EXPECT_EQ(index->ends_with_own, film == 6) << film;
+  }
+  // The first film again.
+  const auto again = read_index(text + index_head(5) + index_line(three), 5);
+  EXPECT_EQ(again->own, (std::vector<IndexEntry>{one, three}));
+  EXPECT_EQ(again->earlier, (std::vector<IndexEntry>{two}));
+  EXPECT_TRUE(again->ends_with_own);
+}
+
+TEST(PictureIndex, IsNoOtherFile) {
+  for (const char* const text : {"hello", "hello\n", "bihive film Index 1 ", "\n"})
+    EXPECT_FALSE(read_index(text, 5)) << text;
 }
 
 TEST(PictureIndex, LosesAtMostTheLineThatAKillHasCut) {
@@ -79,15 +104,14 @@ TEST(PictureIndex, LosesAtMostTheLineThatAKillHasCut) {
   const std::string first = index_head(5) + index_line(one), text = first + index_line(two);
   for (std::size_t size = 0; size < text.size(); ++size) {
     const std::string cut = text.substr(0, size);
-    const auto entries = index_entries(cut, 5);
-    ASSERT_EQ(entries.has_value(), size >= index_head(5).size()) << size;
-    if (entries) {
-      EXPECT_EQ(entries->size(), size >= first.size() ? 1u : 0u) << size;
-    }
+    const auto index = read_index(cut, 5);
+    ASSERT_TRUE(index) << size;
+    EXPECT_EQ(index->own.size(), size >= first.size() ? 1u : 0u) << size;
+    EXPECT_EQ(index->ends_with_own, size >= index_head(5).size()) << size;
     // Even where a later run adds lines after it without cutting it off.
-    const auto later = index_entries(cut + "\n" + index_line(two), 5);
+    const auto later = read_index(cut + "\n" + index_line(two), 5);
     if (!later) continue;
-    for (const IndexEntry& entry : *later) EXPECT_TRUE(entry == one || entry == two) << size;
+    for (const IndexEntry& entry : later->own) EXPECT_TRUE(entry == one || entry == two) << size;
   }
 }
 
@@ -97,9 +121,9 @@ TEST(PictureIndex, TakesNoLineThatIsNone) {
        std::vector<std::string>{"1 2", "1 2 " + hash + "0", "1 2 " + hash.substr(1), "-1 2 " + hash, "1 -2 " + hash,
                                 "a 2 " + hash, "1 2  " + hash, " 1 2 " + hash, "1 2 0123456789ABCDEF",
                                 "9999999999999999999 2 " + hash, "1 2 " + hash + "\r", std::string()}) {
-    const auto entries = index_entries(index_head(1) + line + "\n", 1);
-    ASSERT_TRUE(entries);
-    EXPECT_TRUE(entries->empty()) << line;
+    const auto index = read_index(index_head(1) + line + "\n", 1);
+    ASSERT_TRUE(index);
+    EXPECT_TRUE(index->own.empty()) << line;
   }
 }
 
@@ -116,6 +140,44 @@ std::vector<std::int64_t> listed(const PictureNumbers& numbers) {
   std::vector<std::int64_t> all;
   for (const std::int64_t number : numbers) all.push_back(number);
   return all;
+}
+
+using Numbers = std::vector<std::int64_t>;
+
+Numbers shown(const PictureOrder& order, std::int64_t pictures) {
+  Numbers all;
+  for (std::int64_t k = 0; k < order.positions(pictures); ++k) all.push_back(order.picture_at(k, pictures));
+  return all;
+}
+
+TEST(PictureOrder, IsThatOfTheOptions) {
+  EXPECT_TRUE(PictureOrder().is_plain());
+  EXPECT_EQ(shown({}, 4), (Numbers{0, 1, 2, 3}));
+  EXPECT_EQ(shown({2, 0, false, false}, 3), (Numbers{0, 0, 0, 1, 2}));
+  EXPECT_EQ(shown({0, 2, false, false}, 3), (Numbers{0, 1, 2, 2, 2}));
+  EXPECT_EQ(shown({0, 0, true, false}, 3), (Numbers{2, 1, 0}));
+  EXPECT_EQ(shown({1, 2, true, false}, 3), (Numbers{2, 2, 1, 0, 0, 0}));
+  EXPECT_EQ(shown({0, 0, false, true}, 4), (Numbers{0, 1, 2, 3, 2, 1}));
+  EXPECT_EQ(shown({1, 1, false, true}, 4), (Numbers{0, 0, 1, 2, 3, 3, 2, 1}));
+  EXPECT_EQ(shown({1, 1, true, true}, 3), (Numbers{2, 2, 1, 0, 0, 1}));
+  EXPECT_EQ(shown({0, 0, true, true}, 2), (Numbers{1, 0}));
+  EXPECT_EQ(shown({1, 2, true, true}, 1), (Numbers{0, 0, 0, 0}));
+}
+
+TEST(PictureOrder, KnowsWhereEachPictureIsShownFirst) {
+  for (std::int64_t pictures = 1; pictures < 6; ++pictures)
+    for (int options = 0; options < 36; ++options) {
+      const PictureOrder order{options % 3, options / 3 % 3, options / 9 % 2 == 1, options / 18 == 1};
+      const Numbers all = shown(order, pictures);
+      EXPECT_LE(order.positions_forth(pictures), order.positions(pictures));
+      std::int64_t drawn = 0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto first = std::find(all.begin(), all.end(), all[k]) - all.begin();
+        EXPECT_EQ(order.first_position(static_cast<std::int64_t>(k), pictures), first) << options << " " << pictures;
+        drawn += first == static_cast<std::ptrdiff_t>(k) ? 1 : 0;
+      }
+      EXPECT_EQ(drawn, pictures) << options;
+    }
 }
 
 TEST(PictureNumbers, OfAFilmTakeNoMoreMemoryThanOne) {

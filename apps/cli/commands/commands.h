@@ -11,6 +11,7 @@
 #include "bihive/scene/frame_range.h"
 #include "bihive/thesis/experiments.h"
 #include "bihive/viewer/viewer_settings.h"
+#include "film/picture_order.h"
 
 namespace bihive::cli {
 
@@ -81,6 +82,7 @@ struct FilmOptions {
   std::vector<std::string> words;  ///< the options of a picture, as on the command line
   std::optional<FrameRange> frames;
   std::optional<std::int64_t> pictures;  ///< of one frame
+  PictureOrder order;
   FrameRate rate;
   double turntable_deg = 0;
   std::string camera_keys;  ///< a file; empty: none

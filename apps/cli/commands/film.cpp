@@ -41,7 +41,8 @@ using nlohmann::ordered_json;
 // Refuses options that contradict the kind of the film, before anything is read.
 void check_film_options(const FilmOptions& options, FilmKind kind) {
   const RenderOptions& picture = options.picture;
-  if (options.join && (!picture.input.input.empty() || options.shard || options.frames || options.pictures))
+  if (options.join && (!picture.input.input.empty() || options.shard || options.frames || options.pictures ||
+                       !options.order.is_plain()))
     fail_setting("join", " takes the film's output alone: the shards know the rest", "bihive film --join -o run.mp4");
   if (!options.join && picture.input.input.empty()) fail_usage("bihive film needs an INPUT", "see bihive film --help");
   if (!options.codec.empty() && kind != FilmKind::encoded)
@@ -54,20 +55,39 @@ void check_film_options(const FilmOptions& options, FilmKind kind) {
     fail_setting("turntable", " and " + setting_name("camera_keys") + " both move the camera", "leave one of them out");
 }
 
-std::unique_ptr<FilmSink> open_sink(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
-                                    const std::string& ffmpeg, const PictureNumbers& wanted, FilmFolder& folder) {
-  const std::string& output = options.picture.output;
-  const bool store = options.shard && kind != FilmKind::pictures;
-  if (store || kind == FilmKind::pictures)
-    return open_sequence(folder,
-                         {output, store, options.shard.value_or(Shard{}), wanted, options.picture.dots_per_inch});
-  return kind == FilmKind::y4m ? open_y4m(plan, folder) : open_encoded(plan, output, ffmpeg, folder);
+// Whether the pictures wait as files until all are drawn: those of a shard, and those that an encoder is given again on
+// the way back.
+bool pictures_wait(const FilmPlan& plan, const FilmOptions& options, FilmKind kind) {
+  return kind != FilmKind::pictures && (options.shard || (kind == FilmKind::encoded && plan.asked.order.ping_pong));
 }
 
-// The pictures of this run: its shard's, or all.
-PictureNumbers wanted_pictures(const FilmPlan& plan, const FilmOptions& options) {
-  const Shard shard = options.shard.value_or(Shard{});
-  return PictureNumbers::every(shard.count, shard.index, plan.asked.pictures);
+std::unique_ptr<FilmSink> open_pictures(const FilmPlan& plan, const FilmOptions& options, bool store,
+                                        const PictureNumbers& wanted, FilmFolder& folder) {
+  return open_sequence(folder, {options.picture.output, store, options.shard.value_or(Shard{}), wanted,
+                                plan.asked.order, plan.asked.pictures, options.picture.dots_per_inch});
+}
+
+std::unique_ptr<FilmSink> open_film(const FilmPlan& plan, const FilmOptions& options, FilmKind kind,
+                                    const std::string& ffmpeg, FilmFolder& folder) {
+  return kind == FilmKind::y4m ? open_y4m(plan, folder) : open_encoded(plan, options.picture.output, ffmpeg, folder);
+}
+
+// Where the pictures of a shard, or all, are shown first.
+PictureNumbers first_positions(const FilmPlan& plan, const Shard& shard) {
+  const std::int64_t held = plan.asked.order.hold_first, end = held + plan.asked.pictures;
+  if (held == 0 || shard.index > 0) return PictureNumbers::every(shard.count, held + shard.index, end);
+  PictureNumbers numbers(shard.count);
+  numbers.add(0);
+  for (std::int64_t k = held + shard.count; k < end; k += shard.count) numbers.add(k);
+  return numbers;
+}
+
+// The positions that this run fills by pictures: each picture's first, or, of a film that is written in their order,
+// all before the way back.
+PictureNumbers wanted_positions(const FilmPlan& plan, const FilmOptions& options, FilmKind kind) {
+  if (kind == FilmKind::pictures || pictures_wait(plan, options, kind))
+    return first_positions(plan, options.shard.value_or(Shard{}));
+  return PictureNumbers::every(1, 0, plan.asked.order.positions_forth(plan.asked.pictures));
 }
 
 struct FilmReport {
@@ -82,13 +102,15 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
   const std::string& output = options.picture.output;
   if (!options.picture.json) {
     const std::string kept = report.kept > 0 ? fmt::format(", {} kept from before", grouped(report.kept)) : "";
+    const std::int64_t again = options.shard ? 0 : plan.positions() - plan.asked.pictures;
+    const std::string repeated = again > 0 ? fmt::format(", {} shown again", grouped(again)) : "";
     const std::string of_shard =
         options.shard ? fmt::format(" (shard {}/{})", options.shard->index, options.shard->count) : "";
     print(
-        fmt::format("{}{}: {} {} of {} x {}{}; {} at {:.3g} a second; read {}, build {}, trace {}, write {}; "
+        fmt::format("{}{}: {} {} of {} x {}{}{}; {} at {:.3g} a second; read {}, build {}, trace {}, write {}; "
                     "peak memory {}\n",
                     escaped(output), of_shard, grouped(times.pictures), times.pictures == 1 ? "picture" : "pictures",
-                    plan.fixed.width_px, plan.fixed.height_px, kept, readable_ms(report.all_ms), rate,
+                    plan.fixed.width_px, plan.fixed.height_px, kept, repeated, readable_ms(report.all_ms), rate,
                     readable_ms(times.read_ms), readable_ms(times.build_ms), readable_ms(times.trace_ms),
                     readable_ms(times.write_ms), readable_bytes(peak_memory_bytes())));
     return;
@@ -98,7 +120,7 @@ void print_film_report(const FilmOptions& options, const FilmPlan& plan, const F
   json["film"] = options.shard ? ordered_json() : ordered_json(plan_path(output));
   json["size"] = fmt::format("{}x{}", plan.fixed.width_px, plan.fixed.height_px);
   json["fps"] = static_cast<double>(plan.asked.rate.pictures) / static_cast<double>(plan.asked.rate.seconds);
-  json["pictures"] = plan.asked.pictures;
+  json["pictures"] = plan.positions();
   json["drawn"] = times.pictures;
   json["kept"] = report.kept;
   if (options.shard) json["shard"] = fmt::format("{}/{}", options.shard->index, options.shard->count);
@@ -148,21 +170,20 @@ void check_codec_of_shards(const FilmOptions& options, const FilmPlan& plan, con
     fail({status.error().message, path, 0, 0, status.error().hint});
 }
 
-// The whole film of the shards' pictures. After a signal the next join continues.
-void encode_shards(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const FilmPlan& plan,
-                   const PictureNumbers& all, FilmFolder& folder) {
-  const CancellableSection section;
+// The whole film of the pictures that wait. After a signal the next run continues. The caller has a CancellableSection.
+void join_pictures(const FilmOptions& options, FilmKind kind, const std::string& ffmpeg, const FilmPlan& plan,
+                   FilmFolder& folder) {
   try {
-    const std::unique_ptr<FilmSink> sink = open_sink(plan, options, kind, ffmpeg, all, folder);
+    const std::unique_ptr<FilmSink> sink = open_film(plan, options, kind, ffmpeg, folder);
     Progress progress("joining");
-    for (const std::int64_t k : all) {
+    for (std::int64_t k = 0; k < plan.positions(); ++k) {
       if (CancellableSection::token().cancelled()) {
         sink->pause();
         CancellableSection::leave_if_cancelled();
       }
-      progress.update(static_cast<double>(k) / static_cast<double>(plan.asked.pictures));
+      progress.update(static_cast<double>(k) / static_cast<double>(plan.positions()));
       if (sink->has(k)) continue;
-      const std::string path = shard_picture_path(options.picture.output, k);
+      const std::string path = shard_picture_path(options.picture.output, plan.first_position(k));
       PngFile file = value_or_fail(read_png(path));
       if (file.image.width != plan.fixed.width_px || file.image.height != plan.fixed.height_px)
         fail({"has another size than the film", path, 0, 0, "remove it, and run its shard again"});
@@ -188,24 +209,23 @@ void join_shards(const FilmOptions& options, FilmKind kind, const std::string& f
   const FilmPlan plan = *folder.kept();
   check_codec_of_shards(options, plan, folder.plan_path());
   folder.begin(plan, /*alone=*/true);
-  const PictureNumbers all = PictureNumbers::every(1, 0, plan.asked.pictures);
-  const std::unique_ptr<FilmSink> shards = open_sequence(folder, {output, kind != FilmKind::pictures, Shard{}, all, 0});
+  const PictureNumbers all = first_positions(plan, {});
+  const std::unique_ptr<FilmSink> shards = open_pictures(plan, options, kind != FilmKind::pictures, all, folder);
   std::int64_t missing = 0, first = -1;
-  for (std::int64_t k = plan.asked.pictures - 1; k >= 0; --k)
-    if (!shards->has(k)) {
-      ++missing;
-      first = k;
-    }
+  for (const std::int64_t k : all)
+    if (!shards->has(k) && missing++ == 0) first = k;
   if (missing > 0)
     fail({fmt::format("{} of {} pictures are missing, the first is number {}", missing, plan.asked.pictures, first),
           output, 0, 0, "run the shards that lack them again"});
   FilmReport report;
   report.times = options.of_shards;
   report.kept = plan.asked.pictures - report.times.pictures;
-  if (kind != FilmKind::pictures)
-    encode_shards(options, kind, ffmpeg, plan, all, folder);
-  else
+  if (kind == FilmKind::pictures) {
     shards->finish();
+  } else {
+    const CancellableSection section;
+    join_pictures(options, kind, ffmpeg, plan, folder);
+  }
   report.all_ms = timer.elapsed_ms() + options.ms_of_shards;
   print_film_report(options, plan, report);
 }
@@ -253,12 +273,14 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
   CancellableSection::leave_if_cancelled();
   value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
   const bool writes = ranks == nullptr || ranks->rank() == 0;
-  const PictureNumbers wanted = wanted_pictures(plan, options);
+  const PictureNumbers wanted = wanted_positions(plan, options, kind);
+  const bool wait = pictures_wait(plan, options, kind);
   std::unique_ptr<FilmSink> sink;
   if (writes) {
     folder.begin(plan, /*alone=*/!options.shard);
     try {
-      sink = open_sink(plan, options, kind, ffmpeg, wanted, folder);
+      sink = wait || kind == FilmKind::pictures ? open_pictures(plan, options, wait, wanted, folder)
+                                                : open_film(plan, options, kind, ffmpeg, folder);
     } catch (const Interrupted&) {
       CancellableSection::leave_if_cancelled();
       throw;
@@ -272,8 +294,10 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
 
   // Make it.
   FilmReport report;
-  report.kept = wanted.size() - missing.size();
+  for (const std::int64_t k : wanted)
+    if (plan.first_position(k) == k && !missing.contains(k)) ++report.kept;
   report.times = make_missing(source, plan, options, style, wanted, missing, folder, sink.get(), ranks);
+  if (wait && !options.shard) join_pictures(options, kind, ffmpeg, plan, folder);
   report.all_ms = timer.elapsed_ms();
   if (!options.silent) print_film_report(options, plan, report);
   // The rank that writes a picture counts it.
@@ -310,13 +334,18 @@ FilmTimes run_film(const FilmOptions& asked) {
   FilmPlan plan;
   plan.asked = film_asked_for(options, source.count());
   FilmFolder folder(options.picture.output, kind);
+  if (kind != FilmKind::pictures && !options.shard && !folder.kept())
+    if (const std::optional<FilmPlan> made = finished_film(options.picture.output, plan.asked)) {
+      print_film_report(options, *made, {{}, made->asked.pictures, timer.elapsed_ms()});
+      return {};
+    }
   if (folder.kept()) {
     const std::string differs = difference(folder.kept()->asked, plan.asked);
     if (!differs.empty())
       fail({"holds pictures of another film: " + differs,
             kind == FilmKind::pictures ? plan_path(options.picture.output) : part_path(options.picture.output), 0, 0,
-            std::string("remove it") + (kind == FilmKind::pictures ? " and its pictures" : "") +
-                " to begin anew, or name another output"});
+            std::string("remove it to ") + (kind == FilmKind::pictures ? "replace its pictures" : "begin anew") +
+                ", or name another output"});
     plan = *folder.kept();
   }
 

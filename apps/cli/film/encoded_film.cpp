@@ -48,7 +48,7 @@ class EncodedFilm final : public FilmSink {
       : film_(film),
         ending_(ending_of_film(output)),
         ffmpeg_(std::move(ffmpeg)),
-        pictures_(plan.asked.pictures),
+        pictures_(plan.positions()),
         shortest_((plan.asked.rate.pictures + plan.asked.rate.seconds - 1) / plan.asked.rate.seconds) {
     input_ = {"-f",
               "rawvideo",
@@ -71,12 +71,13 @@ class EncodedFilm final : public FilmSink {
   void add(const FilmPicture& picture) override {
     if (!run_) begin_segment();
     try {
-      run_->write(picture.pixels.bytes.data(), picture.pixels.bytes.size());
+      for (std::int64_t i = 0; i < picture.times; ++i)
+        run_->write(picture.pixels.bytes.data(), picture.pixels.bytes.size());
     } catch (...) {
       run_.reset();
       throw;
     }
-    ++in_segment_;
+    in_segment_ += picture.times;
     if (in_segment_ >= shortest_ && age_.elapsed_ms() >= kSegmentMs) end_segment();
   }
 

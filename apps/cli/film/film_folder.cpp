@@ -11,7 +11,7 @@
 #include "bihive/base/place_file.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
-#include "film/picture_index.h"
+#include "film/content_hash.h"
 
 namespace bihive::cli {
 namespace {
@@ -32,6 +32,15 @@ constexpr int kAttempts = 20;
   fail({"another run has begun another film here", path, 0, 0, "name another output"});
 }
 
+// The bytes of a film.
+FilmPlan::Made made_film(const OwnFolder& folder, const std::string& name) {
+  const std::optional<Descriptor> file = folder.open_file(name, O_RDONLY);
+  struct stat info {};
+  if (!file || fstat(file->get(), &info) != 0)
+    fail_of_system("cannot be read", folder.path_of(name), file ? errno : ENOENT);
+  return {info.st_size, hash_of_file(file->get(), folder.path_of(name))};
+}
+
 bool holds_pictures(const OwnFolder& folder) {
   const std::vector<std::string> names = folder.names();
   return std::any_of(names.begin(), names.end(), [](const std::string& name) {
@@ -45,7 +54,7 @@ FilmFolder::FilmFolder(std::string output, FilmKind kind) : output_(std::move(ou
   const bool parts = kind_ != FilmKind::pictures;
   const std::string beside = cli::plan_path(output_);
   path_ = parts ? part_path(output_) : folder_around(beside);
-  plan_name_ = parts ? kPlan : beside.substr(beside.rfind('/') + 1);
+  plan_name_ = parts ? kPlan : last_name(beside);
   if (parts) parent_ = open_parent(folder_around(path_));
 
   // Open the parts of an earlier run.
@@ -189,7 +198,9 @@ void FilmFolder::lock() {
 void FilmFolder::finish(const std::string& film) {
   // The description comes first: a run killed before the film is moved resumes, and loses nothing.
   folder_->remove(kDescription);
-  folder_->write_new(kDescription, plan_text_, kOfOutputs);
+  FilmPlan plan = parse_film_plan(plan_text_, plan_path());
+  plan.made = made_film(*folder_, film);
+  folder_->write_new(kDescription, film_plan_to_json(plan), kOfOutputs);
   if (const Status status = place_file(folder_->descriptor(), kDescription, cli::plan_path(output_), output_);
       !status) {
     folder_->remove(kDescription);
@@ -226,6 +237,22 @@ void FilmFolder::leave_nothing() {
   }
   for (const std::string& name : made_files_) folder_->remove(name);
   if (made_folder_) rmdir(path_.c_str());
+}
+
+std::optional<FilmPlan> finished_film(const std::string& output, const FilmPlan::Asked& asked) {
+  try {
+    const std::optional<OwnFolder> folder = OwnFolder::open_shared(folder_around(output));
+    const std::string described = plan_path(output);
+    const std::optional<std::string> text = folder ? folder->read(last_name(described)) : std::nullopt;
+    if (!text) return std::nullopt;
+    const FilmPlan plan = parse_film_plan(*text, described);
+    if (!plan.made || !difference(plan.asked, asked).empty()) return std::nullopt;
+    const FilmPlan::Made there = made_film(*folder, last_name(output));
+    return there.bytes == plan.made->bytes && there.hash == plan.made->hash ? std::optional(plan) : std::nullopt;
+  } catch (const Failure&) {
+    // Other files have these names, or none.
+    return std::nullopt;
+  }
 }
 
 }  // namespace bihive::cli

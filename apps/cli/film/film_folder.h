@@ -46,7 +46,8 @@ class FilmFolder {
   /// A file of this run, removed if no picture is completed.
   void note_file(const std::string& name);
 
-  /// `film` in the folder is the whole film: moves it and its description to their paths, and removes the folder.
+  /// `film` in the folder is the whole film: moves it and its description, which then states its bytes, to their paths,
+  /// and removes the folder.
   void finish(const std::string& film);
   /// Leaves nothing if no picture is complete.
   void leave_nothing();
@@ -58,7 +59,7 @@ class FilmFolder {
   void join_other(OwnFolder other);
   void lock();
   void remove_all();
-  std::string part_name() const { return path_.substr(path_.rfind('/') + 1); }
+  std::string part_name() const { return last_name(path_); }
 
   std::string output_;
   FilmKind kind_;
@@ -75,5 +76,9 @@ class FilmFolder {
   std::vector<std::string> made_files_;
   Descriptor lock_;
 };
+
+/// The description of the film that an earlier run has finished in one file at `output`, its links followed: nothing
+/// unless it was asked for in the same way, and both files are this user's and have not changed since.
+std::optional<FilmPlan> finished_film(const std::string& output, const FilmPlan::Asked& asked);
 
 }  // namespace bihive::cli

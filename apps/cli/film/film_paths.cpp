@@ -18,33 +18,44 @@ std::string lower_ending(const std::string& output) {
   return ending;
 }
 
-// The position of the number in the name of a sequence: "%05d" or "%d".
-struct NumberPlace {
-  std::size_t begin = 0, size = 0;
+// The paths of a sequence: what precedes and follows the number, and its least number of digits.
+struct SequencePaths {
+  std::string before, after;
   int digits = 0;
 };
 
-// Fails with kBadUsage unless there is exactly one, after the last '/'.
-NumberPlace number_place(const std::string& pattern) {
+// The number is "%05d" or "%d" in the file's name, and "%%" there is a percent sign. Folders are literal. Fails with
+// kBadUsage unless there is exactly one number.
+SequencePaths sequence_paths(const std::string& pattern) {
   constexpr std::size_t kMostDigits = 2;
   const auto wrong = [&] {
-    fail_usage("a sequence of pictures has one place for their number in its name, found \"" + pattern + "\"",
-               "name it run/%05d.png");
+    fail_usage("the name of each picture of a sequence has its number in one place, found \"" + pattern + "\"",
+               "name it run/%05d.png; a percent sign in the file's name is %%");
   };
-  NumberPlace place;
-  place.begin = pattern.find('%');
-  if (place.begin == std::string::npos || pattern.find('%', place.begin + 1) != std::string::npos) wrong();
-  if (pattern.find('/', place.begin) != std::string::npos) wrong();
-  std::size_t at = place.begin + 1;
-  const std::size_t digits_at = at;
-  while (at < pattern.size() && pattern[at] >= '0' && pattern[at] <= '9') {
-    place.digits = 10 * place.digits + (pattern[at] - '0');
-    ++at;
+  const std::size_t name = pattern.rfind('/') + 1;  // 0 without a folder
+  SequencePaths paths;
+  paths.before = pattern.substr(0, name);
+  bool has_number = false;
+  for (std::size_t at = name; at < pattern.size(); ++at) {
+    std::string& part = has_number ? paths.after : paths.before;
+    if (pattern[at] != '%') {
+      part += pattern[at];
+      continue;
+    }
+    if (pattern.compare(at, 2, "%%") == 0) {
+      part += '%';
+      ++at;
+      continue;
+    }
+    const std::size_t digits = at + 1, end = pattern.find_first_not_of("0123456789", digits);
+    if (has_number || end == std::string::npos || pattern[end] != 'd' || end - digits > kMostDigits) wrong();
+    if (end > digits && pattern[digits] != '0') wrong();
+    if (end > digits) paths.digits = std::stoi(pattern.substr(digits, end - digits));
+    has_number = true;
+    at = end;
   }
-  if (at >= pattern.size() || pattern[at] != 'd' || at - digits_at > kMostDigits) wrong();
-  if (at > digits_at && pattern[digits_at] != '0') wrong();
-  place.size = at + 1 - place.begin;
-  return place;
+  if (!has_number) wrong();
+  return paths;
 }
 
 }  // namespace
@@ -52,7 +63,7 @@ NumberPlace number_place(const std::string& pattern) {
 FilmKind film_kind(const std::string& output) {
   const std::string ending = lower_ending(output);
   if (ending == ".png") {
-    number_place(output);
+    sequence_paths(output);
     return FilmKind::pictures;
   }
   if (ending == ".y4m") return FilmKind::y4m;
@@ -72,13 +83,12 @@ void check_link_of_film(const std::string& link, const std::string& film) {
 
 std::string plan_path(const std::string& output) {
   if (film_kind(output) != FilmKind::pictures) return output + ".json";
-  return output.substr(0, number_place(output).begin) + "film.json";
+  return sequence_paths(output).before + "film.json";
 }
 
 std::string picture_path(const std::string& pattern, std::int64_t number) {
-  const NumberPlace place = number_place(pattern);
-  return pattern.substr(0, place.begin) + fmt::format("{:0{}}", number, place.digits) +
-         pattern.substr(place.begin + place.size);
+  const SequencePaths paths = sequence_paths(pattern);
+  return paths.before + fmt::format("{:0{}}", number, paths.digits) + paths.after;
 }
 
 std::string part_path(const std::string& output) {

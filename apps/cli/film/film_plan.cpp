@@ -13,6 +13,7 @@
 #include "bihive/job/report_text.h"
 #include "bihive/scene/names.h"
 #include "commands/names.h"
+#include "film/content_hash.h"
 
 namespace bihive::cli {
 namespace {
@@ -86,6 +87,10 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   object["input"] = asked.input;
   object["frames"] = {{"first", asked.frames.first}, {"step", asked.frames.step}, {"count", asked.frames.count}};
   object["pictures"] = asked.pictures;
+  object["order"] = {{"hold_first", asked.order.hold_first},
+                     {"hold_last", asked.order.hold_last},
+                     {"reverse", asked.order.reverse},
+                     {"ping_pong", asked.order.ping_pong}};
   object["fps"] = fmt::format("{}/{}", asked.rate.pictures, asked.rate.seconds);
   object["options"] = asked.options;
   object["turntable_deg"] = asked.path.turntable_deg;
@@ -96,6 +101,15 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   return object;
 }
 
+PictureOrder order_of(const ordered_json& value) {
+  PictureOrder order;
+  order.hold_first = whole_of(value.at("hold_first"), 0, kMostPictures);
+  order.hold_last = whole_of(value.at("hold_last"), 0, kMostPictures);
+  order.reverse = value.at("reverse").get<bool>();
+  order.ping_pong = value.at("ping_pong").get<bool>();
+  return order;
+}
+
 FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   FilmPlan::Asked asked;
   asked.program = value.at("program").get<std::string>();
@@ -104,6 +118,8 @@ FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   asked.frames = {whole_of(frames.at("first"), 0, kLastFrame), whole_of(frames.at("step"), 1, kLastFrame),
                   whole_of(frames.at("count"), 1, kMostPictures)};
   asked.pictures = whole_of(value.at("pictures"), 1, kMostPictures);
+  if (value.contains("order")) asked.order = order_of(value.at("order"));
+  if (asked.order.positions(asked.pictures) > kMostPictures) throw std::out_of_range("order");
   const Result<FrameRate> rate = frame_rate_from(value.at("fps").get<std::string>());
   if (!rate) throw std::out_of_range("fps");
   asked.rate = *rate;
@@ -132,6 +148,12 @@ FilmPlan::Fixed fixed_of(const ordered_json& value) {
   return fixed;
 }
 
+FilmPlan::Made made_of(const ordered_json& value) {
+  const std::optional<std::uint64_t> hash = hash_from_text(value.at("hash").get<std::string>());
+  if (!hash) throw std::out_of_range("hash");
+  return {whole_of(value.at("bytes"), 0, std::numeric_limits<std::int64_t>::max()), *hash};
+}
+
 }  // namespace
 
 std::string film_plan_to_json(const FilmPlan& plan) {
@@ -141,7 +163,8 @@ std::string film_plan_to_json(const FilmPlan& plan) {
   fixed["range_of_style"] = range_json(plan.fixed.range_of_style);
   fixed["ranges_of_looks"] = ordered_json::array();
   for (const ColourRange& range : plan.fixed.ranges_of_looks) fixed["ranges_of_looks"].push_back(range_json(range));
-  const ordered_json document = {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
+  ordered_json document = {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
+  if (plan.made) document["made"] = {{"bytes", plan.made->bytes}, {"hash", hash_text(plan.made->hash)}};
   return as_text(document, 2) + "\n";
 }
 
@@ -157,6 +180,7 @@ FilmPlan parse_film_plan(const std::string& text, const std::string& path, const
       FilmPlan plan;
       plan.asked = asked_of(document.at("asked"), path);
       plan.fixed = fixed_of(document.at("fixed"));
+      if (document.contains("made")) plan.made = made_of(document.at("made"));
       return plan;
     }
   } catch (const ordered_json::exception&) {

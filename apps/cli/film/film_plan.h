@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct FilmPlan {
     std::string program;           ///< its version
     nlohmann::ordered_json input;  ///< path, size and time of its files
     FrameList frames;              ///< of the input
-    std::int64_t pictures = 1;     ///< one per frame; or all of one frame
+    std::int64_t pictures = 1;     ///< that are drawn: one per frame; or all of one frame
+    PictureOrder order;
     FrameRate rate;
     std::vector<std::string> options;  ///< of each picture
     CameraPath path;
@@ -34,8 +36,22 @@ struct FilmPlan {
     std::vector<ColourRange> ranges_of_looks;
   } fixed;
 
+  /// The finished film, if it is one file.
+  struct Made {
+    std::int64_t bytes = 0;
+    std::uint64_t hash = 0;
+  };
+  std::optional<Made> made;
+
   std::int64_t frame_of(std::int64_t picture) const {
     return asked.frames.count == 1 ? asked.frames.first : asked.frames.frame(picture);
+  }
+  /// The film has this many pictures, which count the repeated ones.
+  std::int64_t positions() const { return asked.order.positions(asked.pictures); }
+  std::int64_t picture_at(std::int64_t position) const { return asked.order.picture_at(position, asked.pictures); }
+  /// Where the same picture is shown first.
+  std::int64_t first_position(std::int64_t position) const {
+    return asked.order.first_position(position, asked.pictures);
   }
 };
 

@@ -13,9 +13,10 @@ namespace bihive::cli {
 
 class FilmFolder;
 
-/// A finished picture.
+/// A finished picture. Numbers are positions in the film, from 0.
 struct FilmPicture {
-  std::int64_t number = 0;  ///< from 0
+  std::int64_t number = 0;
+  std::int64_t times = 1;  ///< as many missing positions, from `number` on, show it
   PngPixels pixels;
   PngText text;
 };
@@ -27,7 +28,8 @@ class FilmSink {
 
   /// Whether an earlier run has left the picture, complete and of the same film.
   virtual bool has(std::int64_t number) const = 0;
-  /// Takes the next missing picture, in ascending order. From one thread.
+  /// Takes the next missing picture, in ascending order. From one thread. A sequence (in the end) and .y4m repeat
+  /// pictures by themselves.
   virtual void add(const FilmPicture& picture) = 0;
   /// No more pictures come now: prepares what is complete for the next run, and leaves nothing if nothing is.
   virtual void pause() = 0;
@@ -38,7 +40,7 @@ class FilmSink {
 /// The kinds of films, by the output's ending.
 enum class FilmKind { pictures, y4m, encoded };
 
-/// Fails with kBadUsage on another ending, or on a sequence without a unique position for the number.
+/// Fails with kBadUsage on another ending, or on a sequence whose file name does not have its number in one place.
 FilmKind film_kind(const std::string& output);
 
 /// Fails with kBadUsage if the file to which the film's output leads has another ending.
@@ -59,10 +61,12 @@ std::string shard_picture_path(const std::string& output, std::int64_t number);
 /// A film as PNG files.
 struct SequenceForm {
   std::string output;
-  bool store = false;        ///< pictures of a shard, which wait in part_path() for every kind
-  Shard shard;               ///< that draws them
-  PictureNumbers wanted;     ///< its pictures
-  double dots_per_inch = 0;  ///< as for encode_png()
+  bool store = false;         ///< pictures of a shard, which wait in part_path() for every kind
+  Shard shard;                ///< that draws them
+  PictureNumbers wanted;      ///< its pictures, where each is shown first
+  PictureOrder order;         ///< where they are shown again; pictures of a shard are not
+  std::int64_t pictures = 0;  ///< of the film, that are drawn
+  double dots_per_inch = 0;   ///< as for encode_png()
 };
 
 /// All of these create the folder when the first picture comes. They fail if something else has the name of a picture.

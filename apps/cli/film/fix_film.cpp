@@ -119,7 +119,9 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
           std::max<std::int64_t>(1, std::llround(kSecondsOfTurn * static_cast<double>(asked.rate.pictures) /
                                                  static_cast<double>(asked.rate.seconds)));
   }
-  if (asked.pictures > kMostPictures) fail_usage("a film has at most 100,000,000 pictures");
+  asked.order = options.order;
+  if (asked.pictures > kMostPictures || asked.order.positions(asked.pictures) > kMostPictures)
+    fail_usage("a film has at most 100,000,000 pictures");
   if (!asked.path.keys.empty() && asked.path.keys.back().picture >= asked.pictures)
     fail_setting("camera_keys", fmt::format(": the last key is for picture {}, and the last picture is {}",
                                             asked.path.keys.back().picture, asked.pictures - 1));

@@ -25,14 +25,14 @@ namespace {
 
 struct ReadPicture {
   RenderOptions options;
-  std::int64_t number = 0;
+  std::int64_t number = 0, times = 1;
   Input input;
 };
 
 // The tracer refers to the scene, so this stays where it is.
 struct BuiltPicture {
   RenderOptions options;
-  std::int64_t number = 0;
+  std::int64_t number = 0, times = 1;
   Input input;
   RenderSettings settings;
   std::optional<Tracer> tracer;
@@ -104,7 +104,6 @@ class FilmSteps {
       if (CancellableSection::token().cancelled()) throw Interrupted{};
       std::rethrow_exception(failure_);
     }
-    times_.pictures = pictures_.size();
     return times_;
   }
 
@@ -129,16 +128,19 @@ class FilmSteps {
   }
 
   void read_all() {
-    for (const std::int64_t number : pictures_) {
+    for (auto next = pictures_.begin(); next != pictures_.end();) {
       if (CancellableSection::token().cancelled()) break;
       const Timer timer;
-      ReadPicture picture{options_, number, {}};
-      picture.options.picture_of_film = number;
+      ReadPicture picture{options_, *next, 0, {}};
+      for (const std::int64_t first = plan_.first_position(picture.number);
+           next != pictures_.end() && plan_.first_position(*next) == first; ++next)
+        ++picture.times;
+      picture.options.picture_of_film = picture.number;
       picture.options.input.reading.set_frame(-1);
       take_film(picture.options, plan_);
       Style style = style_;
       fix_range(style, plan_.fixed.range_of_style);
-      picture.input = source_.load(plan_.frame_of(number), style);
+      picture.input = source_.load(plan_.frame_of(plan_.picture_at(picture.number)), style);
       warn(picture.input.warnings);
       times_.read_ms += timer.elapsed_ms();
       if (!read_.push(std::move(picture))) break;
@@ -152,6 +154,7 @@ class FilmSteps {
       auto picture = std::make_unique<BuiltPicture>();
       picture->options = std::move(read->options);
       picture->number = read->number;
+      picture->times = read->times;
       picture->input = std::move(read->input);
       const RenderEngine engine = choose_engine(options_);
       picture->settings = prepare_picture(picture->options, engine, picture->input);
@@ -169,12 +172,13 @@ class FilmSteps {
 
   void trace_all() {
     Progress progress("film");
-    std::size_t done = 0;
+    std::int64_t done = 0;
     while (const std::optional<std::unique_ptr<BuiltPicture>> next = built_.pop()) {
       const Timer timer;
       const BuiltPicture& picture = **next;
       FilmPicture drawn;
       drawn.number = picture.number;
+      drawn.times = picture.times;
       const auto update = [&](double share) {
         progress.update((static_cast<double>(done) + share) / static_cast<double>(pictures_.size()));
       };
@@ -189,7 +193,8 @@ class FilmSteps {
         for (auto& [name, text] : text_of(picture.input.scene, described)) drawn.text.emplace_back(name, latin1(text));
       }
       times_.trace_ms += timer.elapsed_ms();
-      ++done;
+      ++times_.pictures;
+      done += picture.times;
       if (sink_ != nullptr && !drawn_.push(std::move(drawn))) break;
     }
     drawn_.end();

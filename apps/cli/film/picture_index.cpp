@@ -2,30 +2,13 @@
 
 #include <cstddef>
 
+#include "film/content_hash.h"
+
 namespace bihive::cli {
 namespace {
 
 constexpr std::string_view kHead = "bihive film index 1 ";
 constexpr std::string_view kIndexName = "film.", kIndexEnding = "index";
-constexpr int kHashDigits = 16;
-
-std::string hexadecimal(std::uint64_t number) {
-  std::string digits(kHashDigits, '0');
-  for (int i = kHashDigits - 1; i >= 0; --i, number >>= 4u)
-    digits[static_cast<std::size_t>(i)] = "0123456789abcdef"[number & 15u];
-  return digits;
-}
-
-std::optional<std::uint64_t> from_hexadecimal(std::string_view digits) {
-  if (digits.size() != kHashDigits) return std::nullopt;
-  std::uint64_t number = 0;
-  for (const char c : digits) {
-    const std::size_t digit = std::string_view("0123456789abcdef").find(c);
-    if (digit == std::string_view::npos) return std::nullopt;
-    number = number << 4u | digit;
-  }
-  return number;
-}
 
 std::optional<std::uint64_t> from_decimal(std::string_view digits) {
   if (digits.empty() || digits.size() > 18) return std::nullopt;
@@ -44,24 +27,19 @@ std::optional<IndexEntry> entry_of(std::string_view line) {
   if (second == std::string_view::npos) return std::nullopt;
   const auto number = from_decimal(line.substr(0, first));
   const auto size = from_decimal(line.substr(first + 1, second - first - 1));
-  const auto hash = from_hexadecimal(line.substr(second + 1));
+  const auto hash = hash_from_text(line.substr(second + 1));
   if (!number || !size || !hash) return std::nullopt;
   return IndexEntry{static_cast<std::int64_t>(*number), *size, *hash};
 }
 
 }  // namespace
 
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {
-  for (const char c : bytes) before = (before ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return before;
-}
-
 std::string index_head(std::uint64_t film) {
-  return std::string(kHead) + hexadecimal(film) + "\n";
+  return std::string(kHead) + hash_text(film) + "\n";
 }
 
 std::string index_line(const IndexEntry& entry) {
-  return std::to_string(entry.number) + " " + std::to_string(entry.size) + " " + hexadecimal(entry.hash) + "\n";
+  return std::to_string(entry.number) + " " + std::to_string(entry.size) + " " + hash_text(entry.hash) + "\n";
 }
 
 std::size_t whole_lines(std::string_view text) {
@@ -69,17 +47,21 @@ std::size_t whole_lines(std::string_view text) {
   return last == std::string_view::npos ? 0 : last + 1;
 }
 
-std::optional<std::vector<IndexEntry>> index_entries(std::string_view text, std::uint64_t film) {
+std::optional<PictureIndex> read_index(std::string_view text, std::uint64_t film) {
+  // A kill may have truncated the first line.
+  if (text.substr(0, kHead.size()) != kHead.substr(0, text.size())) return std::nullopt;
   text = text.substr(0, whole_lines(text));
-  const std::string head = index_head(film);
-  if (text.substr(0, head.size()) != head) return std::nullopt;
-  std::vector<IndexEntry> entries;
-  for (text.remove_prefix(head.size()); !text.empty();) {
-    const std::size_t end = text.find('\n');
-    if (const std::optional<IndexEntry> entry = entry_of(text.substr(0, end))) entries.push_back(*entry);
-    text.remove_prefix(end + 1);
+  const std::string own_head = index_head(film);
+  PictureIndex index;
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (line.substr(0, kHead.size()) == kHead)
+      index.ends_with_own = line == std::string_view(own_head).substr(0, own_head.size() - 1);
+    else if (const std::optional<IndexEntry> entry = entry_of(line))
+      (index.ends_with_own ? index.own : index.earlier).push_back(*entry);
+    text.remove_prefix(line.size() + 1);
   }
-  return entries;
+  return index;
 }
 
 std::string index_name(const std::string& prefix, std::int64_t shard, std::int64_t shards) {

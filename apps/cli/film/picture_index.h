@@ -2,7 +2,8 @@
 // of them.
 //
 // A text file; a line is appended before each picture appears. The first line names the film; each other one has
-// number, bytes and hash of a picture. A kill may truncate the last line, which is then ignored.
+// number, bytes and hash of a picture. A film that replaces another one appends its own name and pictures, so that the
+// other's pictures are still known. A kill may truncate the last line, which is then ignored.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +23,16 @@ struct IndexEntry {
   }
 };
 
-/// 64-bit FNV-1a; `before`: the hash of the preceding bytes.
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325u);
-
-/// The first line; `film`: hash of the film's description.
+/// The line that names the film; `film`: hash of its description.
 std::string index_head(std::uint64_t film);
 std::string index_line(const IndexEntry& entry);
 
-/// Its entries; nothing if it is not the index of this film. Malformed lines are ignored.
-std::optional<std::vector<IndexEntry>> index_entries(std::string_view text, std::uint64_t film);
+struct PictureIndex {
+  std::vector<IndexEntry> own, earlier;  ///< of this film, and of others
+  bool ends_with_own = false;            ///< an appended entry is one of this film
+};
+/// Nothing if it is no index. Malformed lines are ignored.
+std::optional<PictureIndex> read_index(std::string_view text, std::uint64_t film);
 
 /// The bytes of its whole lines.
 std::size_t whole_lines(std::string_view text);

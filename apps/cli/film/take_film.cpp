@@ -19,10 +19,15 @@ void take_film(RenderOptions& options, const FilmPlan& plan) {
   if (!options.picture_of_film && !has_frame)
     fail_setting("film", " needs the number of a frame of the input or of a picture of the film",
                  "give " + setting_name("frame") + " I or " + setting_name("picture") + " K, from 0");
-  std::int64_t picture = options.picture_of_film.value_or(0);
   if (options.picture_of_film && has_frame)
     fail_setting("picture", " and " + setting_name("frame") + " both say which picture it is");
-  if (!options.picture_of_film) {
+  std::int64_t picture = 0;
+  if (options.picture_of_film) {
+    const std::int64_t position = *options.picture_of_film;
+    if (position >= plan.positions())
+      fail_usage(fmt::format("the film has no picture {}: its last one is {}", position, plan.positions() - 1));
+    picture = plan.picture_at(position);
+  } else {
     const std::optional<std::int64_t> found = asked.frames.picture_of(frame);
     if (!found)
       fail_usage(fmt::format("frame {} is not in the film, which has frames {} to {} by steps of {}", frame,
@@ -32,8 +37,6 @@ void take_film(RenderOptions& options, const FilmPlan& plan) {
                  "say which one by " + setting_name("picture") + " K, from 0");
     picture = *found;
   }
-  if (picture >= asked.pictures)
-    fail_usage(fmt::format("the film has no picture {}: its last one is {}", picture, asked.pictures - 1));
   if (!is_generated(options.input.input)) options.input.reading.set_frame(plan.frame_of(picture));
   options.fixed = FixedByFilm{camera_at(asked.path, plan.fixed.camera, picture, asked.pictures),
                               plan.fixed.range_of_style, plan.fixed.ranges_of_looks};

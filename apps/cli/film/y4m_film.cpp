@@ -15,6 +15,7 @@
 #include "bihive/job/film/system_failure.h"
 #include "film/film_folder.h"
 #include "film/film_sink.h"
+#include "support/interrupt.h"
 
 namespace bihive::cli {
 namespace {
@@ -38,7 +39,8 @@ constexpr const char* kName = "film.y4m";
 
 class Y4mFilm final : public FilmSink {
  public:
-  Y4mFilm(const FilmPlan& plan, FilmFolder& film) : film_(film) {
+  Y4mFilm(const FilmPlan& plan, FilmFolder& film)
+      : film_(film), order_(plan.asked.order), pictures_(plan.asked.pictures) {
     head_ = fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C444\n", plan.fixed.width_px, plan.fixed.height_px,
                         plan.asked.rate.pictures, plan.asked.rate.seconds);
     picture_bytes_ = std::int64_t{3} * plan.fixed.width_px * plan.fixed.height_px + 6;
@@ -56,6 +58,7 @@ class Y4mFilm final : public FilmSink {
     write_all(kFrameHead + planes_of(picture.pixels));
     ++whole_;
     film_.keep();
+    repeat();
   }
 
   void pause() override {}
@@ -75,6 +78,7 @@ class Y4mFilm final : public FilmSink {
     if (!file) fail_of_system("cannot be written", path_, ENOENT);
     file_ = std::move(*file);
     keep_whole_pictures();
+    repeat();
   }
 
   // Truncate what a killed program left after the last whole picture.
@@ -89,11 +93,37 @@ class Y4mFilm final : public FilmSink {
     if (kept == 0) write_all(head_);
   }
 
+  // Copies the pictures that are shown again next.
+  void repeat() {
+    for (; whole_ < order_.positions(pictures_); ++whole_) {
+      const std::int64_t first = order_.first_position(whole_, pictures_);
+      if (first == whole_) return;
+      if (CancellableSection::token().cancelled()) throw Interrupted{};
+      write_all(frame(first));
+    }
+  }
+
+  // The bytes of a whole frame.
+  std::string frame(std::int64_t position) const {
+    std::string bytes(static_cast<std::size_t>(picture_bytes_), '\0');
+    const off_t begin = static_cast<off_t>(head_.size()) + position * picture_bytes_;
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t count =
+          pread(file_.get(), bytes.data() + done, bytes.size() - done, begin + static_cast<off_t>(done));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) fail_of_system("cannot be read", path_, count < 0 ? errno : EIO);
+      done += static_cast<std::size_t>(count);
+    }
+    return bytes;
+  }
+
   void write_all(const std::string& bytes) {
     if (const int code = write_whole(file_.get(), bytes); code != 0) fail_of_system("writing failed", path_, code);
   }
 
   FilmFolder& film_;
+  PictureOrder order_;
+  std::int64_t pictures_;
   std::string path_, head_;
   std::int64_t picture_bytes_ = 0, whole_ = 0;
   Descriptor file_;

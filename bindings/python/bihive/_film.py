@@ -10,7 +10,7 @@ import numpy as np
 from . import _bihive
 from ._adapt import is_atom_group, is_universe, spheres_of
 from ._camera import Style
-from ._checks import path_of, several
+from ._checks import boolean, path_of, several
 from ._errors import FileError, MissingError, UsageError, bad_argument, found, shortened
 from ._options import option, words_of
 from ._picture import Picture
@@ -31,7 +31,8 @@ _PATIENCE_S = 15
 _LOOK_S = 0.1
 _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
 # What `bihive film` alone can do.
-_OF_PROGRAM = ["frames", "pictures", "turntable", "camera_keys", "colour_range", "codec", "shard", "join"]
+_OF_PROGRAM = ["frames", "pictures", "hold_first", "hold_last", "turntable", "camera_keys", "colour_range", "codec", "shard"]
+_FLAGS_OF_PROGRAM = ["reverse", "ping_pong"]
 
 
 def environment() -> dict[str, str]:
@@ -295,7 +296,8 @@ def film(
     """Makes a film, and returns the number of its pictures (0: not known, of a file).
 
     source: the path of a file with frames, or of any file with turntable=360: what `bihive film` makes, with all its options
-        (turntable, pictures, camera_keys, colour_range, codec) and frames="A:B:STEP". Or frames in memory: a Universe or
+        (hold_first, hold_last, reverse=True, ping_pong=True, turntable, pictures, camera_keys, colour_range, codec) and
+        frames="A:B:STEP". Or frames in memory: a Universe or
         AtomGroup of MDAnalysis (whose trajectory runs), a trajectory with atoms=universe.atoms, or any iterable of Spheres or
         atoms, such as a list of ASE's. Camera and ranges of colours are those of the first frame.
     path: .mp4, .mov, .mkv or .webm, whole or not at all; ffmpeg must be there.
@@ -310,7 +312,9 @@ def film(
         of_film = {name: options.pop(name) for name in _OF_PROGRAM if name in options}
         if frames is not None:
             of_film["frames"] = frames
+        flags = {name: options.pop(name) for name in _FLAGS_OF_PROGRAM if name in options}
         words = [option(name, value) for name, value in {"fps": fps, **of_film}.items() if value is not None]
+        words += ["--" + name.replace("_", "-") for name, value in flags.items() if value is not None and boolean(name, value)]
         words += picture_words(select, camera, style, looks, {"size": size, **options})
         _film_of_file(check_readable(source, "source"), out, words, progress)
         return 0
@@ -322,6 +326,9 @@ def film(
         raise bad_argument("bits", "a film has 8 bits")
     if isinstance(options.get("background"), str) and options["background"] == "none":
         raise bad_argument("background", "a film has no transparency")
+    for name in [*_OF_PROGRAM, *_FLAGS_OF_PROGRAM]:
+        if options.get(name) is not None:
+            raise bad_argument(name, "is for a film of a file", "give the file's path, or the frames in the order of the film")
     rate = _rate(fps)
     words = picture_words(select, camera, style, looks, {"size": size, **options})
     like = camera if isinstance(camera, Picture) else None

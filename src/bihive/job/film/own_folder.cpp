@@ -43,6 +43,10 @@ std::string folder_around(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+std::string last_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
 std::string random_digits() {
   unsigned long long bits = 0;
   if (getentropy(&bits, sizeof(bits)) != 0) {

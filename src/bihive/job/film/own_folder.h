@@ -20,6 +20,8 @@ inline constexpr mode_t kOfOutputs = 0666, kOwnerWrites = 0644;
 
 /// The folder of a path: "." for a name alone.
 std::string folder_around(const std::string& path);
+/// The name of a path in its folder.
+std::string last_name(const std::string& path);
 
 /// All functions fail with kBadInput.
 class OwnFolder {
