@@ -40,5 +40,17 @@ TEST(ElementColours, SpheresWithOtherColoursKeepThem) {
   EXPECT_EQ(scene.spheres.attributes().colour[3], (Vec3f{0, 0, 0}));
 }
 
+TEST(ElementColours, AStyleThatColoursByChainGivesWay) {
+  Result<LoadedScene> loaded = load_scene("x,y,z,r,element\n0,0,0,1,C\n1,0,0,1,O\n", "a.csv");
+  ASSERT_TRUE(loaded.ok());
+  Scene& scene = loaded->scene;
+  scene.spheres.attributes().colour = {{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}};
+  scene.coloured_by.front().attribute = "chain";
+  ASSERT_TRUE(recolour_elements(scene, *element_colours_called("soft")).ok());
+  EXPECT_EQ(scene.spheres.attributes().colour[0], element_colour(6, ElementScheme::soft));
+  EXPECT_EQ(scene.spheres.attributes().colour[1], element_colour(8, ElementScheme::soft));
+  EXPECT_EQ(scene.coloured_by.front().attribute, "element");
+}
+
 }  // namespace
 }  // namespace bihive

@@ -49,8 +49,24 @@ TEST(PictureOptions, WordsAreTakenInTheirOrder) {
   EXPECT_EQ(request.looks.words,
             (std::vector<std::string>{"--opacity 0.5", "--select chain A", "--colour red", "--hide"}));
   EXPECT_EQ(request.input.input, "a=b.pdb");
-  EXPECT_EQ(request.given.front(), "view_from");
-  EXPECT_EQ(request.given.back(), "no_shadows");
+  EXPECT_EQ(request.given.front().id, "view_from");
+  EXPECT_EQ(request.given.back().id, "no_shadows");
+}
+
+TEST(PictureOptions, ASizeInPrintHasThePixelsOfItsInches) {
+  const auto pixels_of = [](const std::vector<std::string>& words) {
+    PictureSettings picture;
+    taken(words).picture.apply_to(picture);
+    return std::pair(picture.width_px, picture.height_px);
+  };
+  EXPECT_EQ(pixels_of({"--size=8.5cmx6cm", "--dpi=300"}), std::pair(1004, 709));
+  EXPECT_EQ(pixels_of({"--dpi=300", "--size=8.5x6cm"}), std::pair(1004, 709));
+  EXPECT_EQ(pixels_of({"--size=3.5inx144pt", "--dpi=100"}), std::pair(350, 200));
+  EXPECT_EQ(pixels_of({"--size=254x25.4mm", "--dpi=72"}), std::pair(720, 72));
+  EXPECT_EQ(pixels_of({"--size=640x480", "--dpi=72"}), std::pair(640, 480));
+  for (const char* size : {"8.5cm", "8.5x6", "x6cm", "0x6cm", "-1x6cm", "8x6m", "nanx6cm", "8x6 cm"})
+    EXPECT_THROW(taken({"--size=" + std::string(size), "--dpi=300"}), Failure) << size;
+  EXPECT_THROW(taken({"--size=100x100in", "--dpi=1000"}), Failure);
 }
 
 TEST(PictureOptions, ARadiusScaleIsOfTheFileBeforeASelectionAndOfItsSpheresAfter) {

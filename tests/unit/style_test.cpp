@@ -38,7 +38,8 @@ TEST(Style, the_shipped_ones_are_valid_and_say_what_they_are) {
 
 TEST(Style, plain_changes_nothing) {
   const Style plain = style_named("plain").value();
-  const LoadedScene without = built_in_scene("demo").value();
+  LoadedScene without = built_in_scene("demo").value();
+  without.scene.picture.line_unit = LineUnit::picture;  // of every style
   const LoadedScene with = built_in_scene("demo", {}, {}, &plain).value();
   EXPECT_EQ(scene_to_json(with.scene), scene_to_json(without.scene));
   const Camera camera;

@@ -76,15 +76,16 @@ Status recolour_elements(Scene& scene, const ElementColours& colours) {
   for (std::size_t number = 0; number < colours.size(); ++number)
     if (colours[number]) scene.element_colours[number] = *colours[number];
 
-  const bool of_input = scene.coloured_by.empty();
+  // What the style colours by anything else is coloured anew.
+  const bool keeps_others = scene.coloured_by.empty() || scene.coloured_by.front().attribute == "element";
   for (std::size_t i = 0; i < attributes.colour.size(); ++i) {
     const std::uint8_t element = attributes.element[i];
     const bool usual = std::any_of(kElementSchemes.begin(), kElementSchemes.end(), [&](const auto& scheme) {
       return attributes.colour[i] == element_colour(element, scheme.second);
     });
-    if ((usual || !of_input) && element < colours.size()) attributes.colour[i] = scene.element_colours[element];
+    if ((usual || !keeps_others) && element < colours.size()) attributes.colour[i] = scene.element_colours[element];
   }
-  if (of_input) return Done{};
+  if (keeps_others) return Done{};
   ColourBy by_element;
   by_element.attribute = "element";
   scene.coloured_by = {by_element};

@@ -23,8 +23,9 @@ std::optional<ElementColours> element_colours_called(std::string_view name);
 /// file, line and column.
 Result<ElementColours> read_element_colours(std::string_view text, const std::string& file);
 
-/// Gives the spheres these colours, whatever the style colours them by, and colour_by() too. Where the input has
-/// colours of its own, a sphere whose colour is none of palette.h for its element keeps it. Error: no element is known.
+/// Gives the spheres these colours, also where the style colours them by something else, and colour_by() too. Where
+/// they have those of the input or of elements, one whose colour is none of palette.h for its element keeps it. Error:
+/// no element is known.
 Status recolour_elements(Scene& scene, const ElementColours& colours);
 
 }  // namespace bihive
