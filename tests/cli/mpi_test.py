@@ -73,6 +73,12 @@ class Program(OnRanks):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.read("ranks.y4m"), self.read("whole.y4m"))
         self.assertEqual(done.stdout.count("ranks.y4m"), 1, done.stdout)
+        # In another order, and by more ranks than pictures.
+        order = [*small, "--frames", ":2", "--ping-pong", "--hold-first", "2", "--reverse"]
+        self.succeed("film", "run.xyz", "-o", "whole.y4m", *order)
+        done = self.run_ranks(3, BIHIVE_MPI, "film", "run.xyz", "-o", "ranks.y4m", *order)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.read("ranks.y4m"), self.read("whole.y4m"))
 
     def test_three_ranks_share_two_pictures(self):
         film = ["film", "run.xyz", "--frames", "2:4", "--size", "150x100", "--threads", "1"]
