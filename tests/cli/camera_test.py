@@ -79,6 +79,36 @@ class ProjectionOption(CameraTest):
         self.assertIn("--projection:", self.fail_usage("render", "demo", "-o", "a.png", "--projection", "fisheye"))
 
 
+class WidePictures(CameraTest):
+    def test_spheres_at_the_ends_of_a_wide_picture_look_round(self):
+        self.write("row.csv", "x,y,z,r\n" + "".join(f"{3 * i},0,0,1\n" for i in range(12)))
+        size = ["row.csv", "--size", "1200x240"]
+        widths = self.widths(*size)
+        self.assertEqual(len(widths), 12)
+        self.assertLess(max(widths) / min(widths), 1.25)
+        wide = self.widths(*size, "--fov", "30")
+        self.assertGreater(max(wide) / min(wide), 1.4)
+        # Up to a little over twice as wide as high, 30 degrees as ever.
+        self.assertEqual(self.camera("row.csv", "--size", "640x300")["fov_deg"], 30)
+        self.assertEqual(self.camera("row.csv", "--size", "300x640")["fov_deg"], 30)
+        self.assertLess(self.camera("row.csv", "--size", "300x900")["fov_deg"], 30)
+
+    def test_an_eye_inside_of_spheres_is_told(self):
+        self.write("row.csv", ROW)
+        for options, reason in [(["--projection", "orthographic", "--eye", "0,0,0.5", "--look-at", "0,0,-20"], "cuts 1 sphere,"),
+                                (["--eye=-3,0.5,0", "--look-at=-3,0,-20"], "the eye is inside 1 sphere,")]:
+            done = self.run_bihive("render", "row.csv", "-o", "a.png", "--size", "60x40", *options)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn(reason, done.stderr)
+        self.succeed("render", "row.csv", "-o", "a.png", "--size", "60x40", "--eye", "0,0,9")
+
+    def test_points_and_sizes_in_print(self):
+        self.write("row.csv", ROW)
+        self.assertEqual(self.render("row.csv", "--size", "2x1cm", "--dpi", "254", "--line-unit", "pt", "--outline", "1")["size"], "200x100")
+        for words, reason in [(["--size", "2x1cm"], "--size in print needs"), (["--line-unit", "pt"], "--line-unit pt needs")]:
+            self.assertIn(reason, self.fail_usage("render", "row.csv", "-o", "a.png", *words))
+
+
 class TurnAndZoom(CameraTest):
     def offset(self, *arguments):
         """From what the camera looks at to its eye, of length 1."""
