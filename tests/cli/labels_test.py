@@ -25,7 +25,7 @@ class Labels(ProgramTest):
         look = ["--colour-by", "charge", "--projection", "orthographic", "--eye", "0,0,20", "--look-at", "0,0,0"]
         plain = self.picture(*look)
         corners = {"--title=Title": (80, 0, 160, 25), "--axes": (0, 80, 90, 160), "--scale-bar": (150, 120, 240, 160),
-                   "--legend": (150, 10, 240, 160)}
+                   "--legend": (150, 0, 240, 160)}
         for option, (x0, y0, x1, y1) in corners.items():
             labelled = self.picture(*look, option)
             changed = [(x, y) for y in range(160) for x in range(240) if plain[y][x] != labelled[y][x]]
