@@ -14,6 +14,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
 #include "bihive/job/messages.h"
+#include "commands/draw_picture.h"
 #include "film/content_hash.h"
 #include "film/film_folder.h"
 #include "film/film_sink.h"

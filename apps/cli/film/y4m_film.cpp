@@ -13,6 +13,7 @@
 
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
+#include "commands/draw_picture.h"
 #include "film/film_folder.h"
 #include "film/film_sink.h"
 #include "support/interrupt.h"
