@@ -377,6 +377,18 @@ class FilmsThatWereThere(FaultTest):
             self.assertIn("6 kept from before", self.succeed("film", *words))
             self.assertEqual(self.single(name + ".json", "--frame", "2")[:4], b"\x89PNG")
 
+    def test_a_film_is_made_again_when_a_file_of_its_options_changes(self):
+        self.write("s.json", '{"bihive_style": 1, "background": "black"}')
+        self.write("map.txt", "#000000\n#ff0000\n")
+        words = ["run.xyz", "-o", "run.y4m", *SMALL, "--style", "s.json", "--colour-by", "x:map.txt"]
+        self.assertEqual(self.film(*words)["drawn"], 6)
+        self.assertEqual(self.film(*words)["kept"], 6)
+        self.write("s.json", '{"bihive_style": 1, "background": "blue"}')
+        self.assertEqual(self.film(*words)["drawn"], 6)
+        self.write("map.txt", "#000000\n#00ff00\n")
+        self.assertEqual(self.film(*words)["drawn"], 6)
+        self.assertEqual(self.film(*words)["kept"], 6)
+
     def test_the_film_of_shards_too(self):
         for shard in ("0/2", "1/2"):
             self.film("run.xyz", "-o", "run.y4m", *SMALL, "--shard", shard)
