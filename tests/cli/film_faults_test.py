@@ -380,7 +380,7 @@ class FilmsThatWereThere(FaultTest):
     def test_a_film_is_made_again_when_a_file_of_its_options_changes(self):
         self.write("s.json", '{"bihive_style": 1, "background": "black"}')
         self.write("map.txt", "#000000\n#ff0000\n")
-        words = ["run.xyz", "-o", "run.y4m", *SMALL, "--style", "s.json", "--colour-by", "x:map.txt"]
+        words = ["run.xyz", "-o", "run.y4m", "--size", "48x32", "--samples", "1", "--style", "s.json", "--colour-by", "x:map.txt"]
         self.assertEqual(self.film(*words)["drawn"], 6)
         self.assertEqual(self.film(*words)["kept"], 6)
         self.write("s.json", '{"bihive_style": 1, "background": "blue"}')
