@@ -175,7 +175,9 @@ Verdict verdict_on(const std::string& path, const VerifyOptions& options) {
       value_or_fail(write_png(options.difference, difference_of(image_of(figure.pixels), image_of(again)).picture, {}));
   } catch (const Failure& failure) {
     if (failure.code == kInterrupted) throw;
-    verdict.error = failure.error.to_string();
+    Error error = failure.error;
+    if (error.file == path) error.file.clear();
+    verdict.error = error.to_string();
   }
   return verdict;
 }
