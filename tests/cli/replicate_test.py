@@ -39,7 +39,7 @@ class Replicate(ProgramTest):
     def test_copies_have_the_bits_of_stored_spheres(self):
         vectors = [(4.1, 0, 0), (0.7, 4.3, 0), (0, 0.1, 5.7)]
         self.write("copied.csv", csv_of(copies_of(BALLS, 2, 3, 2, vectors)))
-        for options in ([], ["--colour-by", "z", "--ao"], ["--opacity", "0.5"], ["--view", "id"], ["--material", "glass"]):
+        for options in ([], ["--colour-by", "z", "--ao"], ["--opacity", "0.5"], ["--opacity", "0.5", "--opacity-rule", "once"], ["--view", "id"], ["--material", "glass"]):
             stored = self.hash_of("copied.csv", *options)
             for engine in ("wide", "reference", "brute"):
                 self.assertEqual(self.hash_of("a.csv", *CELL, "--replicate", "2x3x2", "--engine", engine, *options), stored, (engine, options))
@@ -76,7 +76,7 @@ class Replicate(ProgramTest):
     def test_the_cell_is_drawn_and_hidden_by_spheres(self):
         self.write("one.csv", "x,y,z,r\n0,0,0,1\n")
         view = ["--eye", "0,0,20", "--look-at", "0,0,0", "--projection", "orthographic", "--size", "80x80", "--samples", "1",
-                "--style", "flat", "--background", "white", "--outline", "0"]
+                "--style", "flat", "--background", "white", "--outline", "0", "--line-unit", "px"]
         # An edge runs behind the sphere along y = 0, another one before it.
         behind = ["--cell-vectors", "4,0,0,0,4,0,0,0,-4", "--cell-origin=-2,0,-1.5"]
         before = ["--cell-vectors", "4,0,0,0,4,0,0,0,4", "--cell-origin=-2,0,1.5"]

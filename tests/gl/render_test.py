@@ -1,5 +1,6 @@
 """bihive render --engine gpu: its files and its output. Pictures are compared pixel by pixel in agreement_test.cpp."""
 
+import json
 import os
 import signal
 import subprocess
@@ -26,7 +27,10 @@ class RenderOnGpu(ProgramTest):
         cpu = self.succeed_json("render", "scenario1", *SIZE, "--engine", "reference", "-o", "cpu.png")
         self.assertNotIn("gpu", cpu)
         self.assertAlmostEqual(said["rays"]["all"] / cpu["rays"]["all"], 1, delta=0.005)
-        self.assertEqual(png_text(self.read("gpu.png")), png_text(self.read("cpu.png")))
+        words = [png_text(self.read(name)) for name in ("gpu.png", "cpu.png")]
+        records = [json.loads(text.pop("bihive")) for text in words]
+        self.assertEqual(words[0], words[1])
+        self.assertEqual([["engine", "gpu"] in record["options"] for record in records], [True, False])
 
     def test_tree_and_brute_force_draw_the_same(self):
         self.succeed("render", "scenario3", "--count", "100", *SIZE, "--engine", "gpu", "-o", "tree.png")

@@ -136,6 +136,9 @@ TEST(ImagesPicture, IsThatOfCopies) {
     light(pair.copies, projection);
     EXPECT_EQ(pair.images.camera, pair.copies.camera);
     compare(pair, everything(), "everything");
+    RenderSettings first = everything();
+    first.opacity_rule = OpacityRule::first;
+    compare(pair, first, "first surfaces");
     RenderSettings plain = everything();
     plain.opacity_rule = OpacityRule::each_surface;
     plain.fog.reset();

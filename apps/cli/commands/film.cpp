@@ -336,6 +336,7 @@ FilmTimes run_film(const FilmOptions& asked) {
   FilmFolder folder(options.picture.output, kind);
   if (kind != FilmKind::pictures && !options.shard && !folder.kept())
     if (const std::optional<FilmPlan> made = finished_film(options.picture.output, plan.asked)) {
+      folder.remove_rests();
       print_film_report(options, *made, {{}, made->asked.pictures, timer.elapsed_ms()});
       return {};
     }

@@ -125,11 +125,14 @@ void FilmFolder::make_for_sequence() {
   if (alone_ || !text || *text != plan_text_) fail_other_film(plan_path());
 }
 
+void FilmFolder::remove_rests() const {
+  remove_leftovers(parent_.get(), folder_around(path_));
+}
+
 // Use an unguessable name, so that a killed run leaves no FILE.part without a picture.
 void FilmFolder::make_hidden() {
-  const std::string around = folder_around(path_);
-  remove_leftovers(parent_.get(), around);
-  HiddenFolder made = make_hidden_folder(parent_.get(), around, alone_ ? LOCK_EX : LOCK_SH);
+  remove_rests();
+  HiddenFolder made = make_hidden_folder(parent_.get(), folder_around(path_), alone_ ? LOCK_EX : LOCK_SH);
   hidden_ = made.name;
   folder_ = std::move(made.folder);
   lock_ = std::move(made.lock);

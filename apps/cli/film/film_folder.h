@@ -49,6 +49,8 @@ class FilmFolder {
   /// `film` in the folder is the whole film: moves it and its description, which then states its bytes, to their paths,
   /// and removes the folder.
   void finish(const std::string& film);
+  /// Removes what killed runs have left beside the film. For one in one file, before it begins.
+  void remove_rests() const;
   /// Leaves nothing if no picture is complete.
   void leave_nothing();
 

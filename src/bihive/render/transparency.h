@@ -63,7 +63,8 @@ class TransparentSpheres {
   Vec3d tint(std::int64_t id) const {
     if (!has_tints()) return {1, 1, 1};
     if (seen_ != nullptr) return tint_of(*seen_, id);
-    if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size()) return tint_of(*of_images_, id);
+    if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size() && class_of(id) < 0)
+      return tint_of(*of_images_, id);
     return tints_[stored(id)];
   }
   /// The share that a surface does not let through; 1 of the plane.
@@ -93,13 +94,14 @@ class TransparentSpheres {
   }
 
   Vec3d tint_of(const Scene& scene, std::int64_t id) const;
-  int class_of(std::int64_t id) const;  // where spheres are remote; else -1
+  int class_of(std::int64_t id) const;
   void keep_first_of_classes(std::vector<RayHit>& found) const;
   double passing_of_seen(std::int64_t id) const;
 
   bool has_tints_ = false;
   std::vector<double> passing_;
   std::vector<Vec3d> tints_;          // empty: all are white
+  std::vector<std::int8_t> classes_;  // empty: no sphere is in one, or they are remote
   const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
   const Scene* seen_ = nullptr;       // of the spheres that were seen; null: all are here
   bool to_eye_ = false;               // where they are remote

@@ -46,11 +46,12 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
     made->tints_ = std::move(tints);
     made->has_tints_ = !made->tints_.empty();
     made->of_images_ = of_images;
+    made->classes_ = std::move(classes);
     std::vector<std::int64_t> opaque, transparent;
     std::vector<std::vector<std::int64_t>> of_class(kOpacityClasses);
     const std::int64_t count = first < 0 ? spheres.size() : first;
     for (std::int64_t id = 0; id < count; ++id) {
-      const int its_class = classes.empty() ? -1 : classes[static_cast<std::size_t>(id)];
+      const int its_class = made->class_of(id);
       if (!(made->passing(id) > 0))
         opaque.push_back(id);
       else
@@ -164,7 +165,8 @@ void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, Vec3d*
 }
 
 int TransparentSpheres::class_of(std::int64_t id) const {
-  return has_classes_ ? passing_of(material_of(*seen_, id)).class_by(OpacityRule::first) : -1;
+  if (has_classes_) return passing_of(material_of(*seen_, id)).class_by(OpacityRule::first);
+  return classes_.empty() ? -1 : classes_[stored(id)];
 }
 
 void TransparentSpheres::closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const {
@@ -219,7 +221,7 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
   // Images may have a tint where the stored spheres have none.
   const Scene* const of_images = ImageColours(scene).any() ? &scene : nullptr;
   std::vector<Vec3d> tints;
-  if (of_images != nullptr) tints.assign(count, {1, 1, 1});
+  bool may_tint = false;
   for (std::size_t i = 0; i < count; ++i) {
     const Material material = material_of(scene, static_cast<std::int64_t>(i));
     const Passing passing = passing_of(material);
@@ -227,11 +229,14 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
     to_light[i] = passing.to_light;
     const int its_class = passing.class_by(rule);
     if (!classes.empty()) classes[i] = static_cast<std::int8_t>(its_class);
-    const Vec3d tint = to_light[i] > 0 && its_class < 0 ? passing_tint(material) : Vec3d{1, 1, 1};
+    const bool is_tinted = to_light[i] > 0 && its_class < 0;
+    may_tint = may_tint || is_tinted;
+    const Vec3d tint = is_tinted ? passing_tint(material) : Vec3d{1, 1, 1};
     if (tints.empty() && tint != Vec3d{1, 1, 1}) tints.assign(count, {1, 1, 1});
     if (!tints.empty()) tints[i] = tint;
   }
 
+  if (of_images != nullptr && may_tint && tints.empty()) tints.assign(count, {1, 1, 1});
   const bool alike = to_eye == to_light;
   const std::shared_ptr<const CutSet> cuts = remote == nullptr ? cut_set_of(scene) : nullptr;
   const auto divide = [&](std::vector<double>& passing,
@@ -239,8 +244,8 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
     if (std::none_of(passing.begin(), passing.end(), [](double share) { return share > 0; }))
       return std::shared_ptr<const TransparentSpheres>();
     if (remote != nullptr) return TransparentSpheres::remote(scene, *remote, is_to_eye, !tints.empty(), rule);
-    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints, of_images, first,
-                                      classes);
+    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints,
+                                      may_tint ? of_images : nullptr, first, classes);
   };
   Result<std::shared_ptr<const TransparentSpheres>> part = divide(to_light, alike);
   if (!part) return part.error();
