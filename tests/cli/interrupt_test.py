@@ -75,7 +75,10 @@ class Interrupt(ProgramTest):
         for attempt in range(10):
             folder = f"report{attempt}"
             process = subprocess.Popen([BIHIVE, "thesis", "figure-4.4", "--out", folder], cwd=self.folder)
-            self.let_work(process, 1.5)
+            self.let_work(process, 0)
+            # The steps begin after the command line and the machine have been looked at, seconds of work with sanitizers.
+            while process.poll() is None and not os.path.exists(self.path(f"{folder}/steps")):
+                time.sleep(0.01)
             process.send_signal(signal.SIGINT)
             time.sleep(0.02)
             process.send_signal(signal.SIGINT)
