@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/base/setting_name.h"
-#include "bihive/base/sha256.h"
 #include "bihive/base/version.h"
 #include "bihive/image/image_diff.h"
 #include "bihive/image/png.h"
@@ -66,7 +65,7 @@ struct Verdict {
   std::vector<std::string> changed_files;  // options of files with other bytes
   std::int64_t pixels_differ = 0;
   int largest = 0;              // difference of a channel, in its own steps
-  std::int64_t x = -1, y = -1;  // of the first one
+  std::int64_t x = -1, y = -1;  // the first pixel that differs
   bool edited = false;          // the file's pixels are not those that its record names
   bool same_form = true;        // size, channels and bits
 
@@ -154,12 +153,6 @@ Image image_of(const PngPixels& pixels) {
   return image;
 }
 
-std::string sha256_of(const PngPixels& pixels) {
-  Sha256 sha;
-  sha.add({reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size()});
-  return sha.digits();
-}
-
 Verdict verdict_on(const std::string& path, const VerifyOptions& options) {
   Verdict verdict;
   verdict.figure = path;
@@ -227,7 +220,7 @@ ordered_json json_of(const Verdict& verdict) {
   return json;
 }
 
-// Folders stand for the PNG files in them that say how they were drawn.
+// Folders stand for the PNG files in them that say how they were drawn, or cannot be read.
 std::vector<std::string> figures_of(const std::vector<std::string>& paths) {
   std::vector<std::string> figures;
   for (const std::string& path : paths) {
@@ -239,9 +232,9 @@ std::vector<std::string> figures_of(const std::vector<std::string>& paths) {
     std::vector<std::string> inside;
     for (const fs::directory_entry& entry : fs::directory_iterator(path, none)) {
       if (!is_png(entry.path().string())) continue;
-      const Result<PngFileOfPixels> file = read_png_pixels(entry.path().string());
-      if (file && std::any_of(file->text.begin(), file->text.end(),
-                              [](const auto& chunk) { return chunk.first == kLateKeyword; }))
+      const Result<PngFile> file = read_png(entry.path().string());
+      if (!file || std::any_of(file->text.begin(), file->text.end(),
+                               [](const auto& chunk) { return chunk.first == kLateKeyword; }))
         inside.push_back(entry.path().string());
     }
     if (inside.empty()) fail({"there is no picture in it that says how it was drawn", path, 0, 0, ""});

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "arrays.h"
-#include "bihive/base/sha256.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
@@ -140,11 +139,8 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
     picture->exr_text.emplace_back(name, value);
   }
   // Spheres, styles and cameras in memory are in no file from which the picture could be drawn again.
-  if (spheres == nullptr && style_text.empty() && like == nullptr) {
-    Sha256 sha;
-    sha.add({reinterpret_cast<const char*>(picture->pixels.bytes.data()), picture->pixels.bytes.size()});
-    picture->text.emplace_back(kLateKeyword, to_text(record_of(options, sha.digits())));
-  }
+  if (spheres == nullptr && style_text.empty() && like == nullptr)
+    picture->text.emplace_back(kLateKeyword, to_text(record_of(options, sha256_of(picture->pixels))));
   nlohmann::ordered_json report;
   report["scene"] = scene.name;
   report["spheres"] = scene.spheres.size();

@@ -6,6 +6,7 @@
 
 #include "bihive/base/check.h"
 #include "bihive/base/parallel.h"
+#include "bihive/base/sha256.h"
 #include "bihive/image/image.h"
 #include "bihive/image/image_from_film.h"
 
@@ -59,6 +60,12 @@ PngPixels png_pixels_from_film(const Film& film, Transfer curve, int bits, int t
     }
   });
   return pixels;
+}
+
+std::string sha256_of(const PngPixels& pixels) {
+  Sha256 sha;
+  sha.add({reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size()});
+  return sha.digits();
 }
 
 std::uint64_t picture_hash(const PngPixels& pixels) {

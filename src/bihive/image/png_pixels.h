@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "bihive/image/film.h"
@@ -26,6 +27,9 @@ struct PngPixels {
 /// four channels: the opacity is the coverage without a curve, and the colour is not multiplied by it. With 8 bits and
 /// without coverage, the bytes are those of image_from_film(). `threads` 0: all.
 PngPixels png_pixels_from_film(const Film& film, Transfer curve, int bits, int threads = 0);
+
+/// SHA-256 of the bytes, in hexadecimal digits.
+std::string sha256_of(const PngPixels& pixels);
 
 /// As picture_hash() of an image; equal for equal bytes.
 std::uint64_t picture_hash(const PngPixels& pixels);
