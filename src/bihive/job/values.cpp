@@ -12,7 +12,7 @@
 #include "bihive/bih/tree.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/select/selection.h"
-#include "bihive/settings/picture_effects.h"
+#include "bihive/settings/picture_settings.h"
 
 namespace bihive {
 namespace {
@@ -103,12 +103,11 @@ Result<Turn> turn_from(const std::string& text) {
 }
 
 Result<PictureSize> size_from(const std::string& text) {
-  constexpr int kLargest = 65535;
   const std::size_t times = text.find('x');
   if (times != std::string::npos) {
     const std::optional<int> width = whole<int>(std::string_view(text).substr(0, times));
     const std::optional<int> height = whole<int>(std::string_view(text).substr(times + 1));
-    if (width && height && *width >= 1 && *height >= 1 && *width <= kLargest && *height <= kLargest)
+    if (width && height && *width >= 1 && *height >= 1 && *width <= kMostSidePx && *height <= kMostSidePx)
       return PictureSize{*width, *height};
   }
   return unexpected("WIDTHxHEIGHT in pixels, each from 1 to 65535", text);
@@ -129,10 +128,9 @@ Result<std::variant<PictureSize, PrintSize>> size_or_print_size_from(const std::
 }
 
 Result<PictureSize> size_of_print(const PrintSize& print, double dots_per_inch) {
-  constexpr double kLargest = 65535;
   const double width = std::round(print.width_in * dots_per_inch);
   const double height = std::round(print.height_in * dots_per_inch);
-  if (width >= 1 && height >= 1 && width <= kLargest && height <= kLargest)
+  if (width >= 1 && height >= 1 && width <= kMostSidePx && height <= kMostSidePx)
     return PictureSize{static_cast<int>(width), static_cast<int>(height)};
   return Error{fmt::format("a picture of {:g} x {:g} inches at {:g} pixels per inch has {:.0f} x {:.0f} pixels; each "
                            "side has 1 to 65535",
@@ -141,9 +139,9 @@ Result<PictureSize> size_of_print(const PrintSize& print, double dots_per_inch) 
 }
 
 Result<Tile> crop_from(const std::string& text) {
-  constexpr int kLargest = 65535;
   const std::vector<int> n = numbers_of<int>(text);
-  if (n.size() == 4 && n[0] >= 0 && n[1] >= 0 && n[0] < n[2] && n[1] < n[3] && n[2] <= kLargest && n[3] <= kLargest)
+  if (n.size() == 4 && n[0] >= 0 && n[1] >= 0 && n[0] < n[2] && n[1] < n[3] && n[2] <= kMostSidePx &&
+      n[3] <= kMostSidePx)
     return Tile{n[0], n[1], n[2], n[3]};
   return unexpected("four whole numbers X0,Y0,X1,Y1 from 0 to 65535, X0 below X1 and Y0 below Y1", text);
 }

@@ -76,7 +76,7 @@ Status recolour_elements(Scene& scene, const ElementColours& colours) {
   for (std::size_t number = 0; number < colours.size(); ++number)
     if (colours[number]) scene.element_colours[number] = *colours[number];
 
-  // What the style colours by anything else is coloured anew.
+  // Spheres that the style colours by another attribute are recoloured.
   const bool keeps_others = scene.coloured_by.empty() || scene.coloured_by.front().attribute == "element";
   for (std::size_t i = 0; i < attributes.colour.size(); ++i) {
     const std::uint8_t element = attributes.element[i];

@@ -7,12 +7,13 @@
 #include <string_view>
 
 #include "bihive/base/result.h"
+#include "bihive/scene/palette.h"
 #include "bihive/scene/scene.h"
 
 namespace bihive {
 
-/// By atomic number from 0 (unknown) to 118: linear RGB; no value: the usual colour (element_colour()).
-using ElementColours = std::array<std::optional<Vec3f>, 119>;
+/// By atomic number: linear RGB; no value: the usual colour (element_colour()).
+using ElementColours = std::array<std::optional<Vec3f>, kElementNumbers>;
 
 /// "cpk": the colours of RasMol [SayleMilnerWhite1995], after the models of Corey, Pauling and Koltun. "jmol" and
 /// "soft": those of palette.h. Nothing for any other name.

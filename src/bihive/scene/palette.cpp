@@ -92,9 +92,8 @@ Vec3f element_colour(int atomic_number, ElementScheme scheme) {
 }
 
 std::vector<Vec3f> element_colours_of(ElementScheme scheme) {
-  constexpr int kHeaviest = 118;
   std::vector<Vec3f> colours;
-  for (int number = 0; number <= kHeaviest; ++number) colours.push_back(element_colour(number, scheme));
+  for (int number = 0; number < kElementNumbers; ++number) colours.push_back(element_colour(number, scheme));
   return colours;
 }
 

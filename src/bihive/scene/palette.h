@@ -18,7 +18,8 @@ inline const Names<ElementScheme> kElementSchemes{{"jmol", ElementScheme::jmol},
 /// Linear RGB of a chemical element by atomic number (0 or unknown: pink).
 Vec3f element_colour(int atomic_number, ElementScheme scheme = ElementScheme::jmol);
 
-/// Those of all elements, by atomic number from 0 (unknown) to 118.
+/// Those of all elements, by atomic number below kElementNumbers.
+constexpr int kElementNumbers = 119;  // 0: unknown
 std::vector<Vec3f> element_colours_of(ElementScheme scheme);
 
 /// Linear RGB of a particle type: different for forty numbers in a row, of which the first eight differ most. Any
