@@ -18,7 +18,7 @@ std::string lower_ending(const std::string& output) {
   return ending;
 }
 
-// The paths of a sequence: what precedes and follows the number, and its least number of digits.
+// The path of a picture of a sequence, split at its number, and the minimum number of digits.
 struct SequencePaths {
   std::string before, after;
   int digits = 0;

@@ -49,7 +49,7 @@ struct FilmPlan {
   /// The film has this many pictures, which count the repeated ones.
   std::int64_t positions() const { return asked.order.positions(asked.pictures); }
   std::int64_t picture_at(std::int64_t position) const { return asked.order.picture_at(position, asked.pictures); }
-  /// Where the same picture is shown first.
+  /// The first position that shows the same picture.
   std::int64_t first_position(std::int64_t position) const {
     return asked.order.first_position(position, asked.pictures);
   }

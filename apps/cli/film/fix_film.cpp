@@ -14,7 +14,7 @@
 #include "bihive/io/data_path.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
-#include "bihive/job/picture_record.h"
+#include "bihive/job/picture_options.h"
 #include "bihive/job/prepare_picture.h"
 #include "commands/names.h"
 #include "film/turning_camera.h"
@@ -93,13 +93,7 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   FilmPlan::Asked asked;
   asked.program = version();
   asked.input = {described_file(options.picture.input.input)};
-  const std::string& trajectory = options.picture.input.reading.options().trajectory;
-  if (!trajectory.empty()) asked.input.push_back(described_file(trajectory));
-  // Files of single settings, whose content is part of the film too.
-  for (const GivenSetting& one : options.picture.given)
-    if (one.id != "trajectory" && one.id != "colour_by" && names_file(one.id, one.value))
-      asked.input.push_back(described_file(one.value));
-  for (const std::string& map : options.picture.looks.colour_map_files) asked.input.push_back(described_file(map));
+  for (const GivenSetting& file : files_named_by(options.picture)) asked.input.push_back(described_file(file.value));
   const Result<FrameList> list = frames_in(options.frames.value_or(FrameRange{}), frames);
   if (!list) fail_setting("frames", ": " + list.error().message, list.error().hint);
   asked.frames = *list;

@@ -27,7 +27,7 @@ struct PictureOrder {
     const std::int64_t step = step_at(position, pictures);
     return reverse ? pictures - 1 - step : step;
   }
-  /// Where the picture at a position is shown first.
+  /// The first position that shows the same picture.
   std::int64_t first_position(std::int64_t position, std::int64_t pictures) const {
     const std::int64_t step = step_at(position, pictures);
     return step == 0 ? 0 : hold_first + step;

@@ -1,6 +1,7 @@
 #include "support/request_files.h"
 
 #include "bihive/io/data_path.h"
+#include "bihive/job/picture_options.h"
 
 namespace bihive::cli {
 namespace {
@@ -13,6 +14,7 @@ Files together(std::initializer_list<Files> lists) {
   return all;
 }
 
+// For commands whose options are not those of a picture.
 Files files_of(const InputOptions& input) {
   return {file_of(input), data_path(input.reading.options().trajectory).file};
 }
@@ -20,9 +22,9 @@ Files files_of(const InputOptions& input) {
 // The options shared by commands that draw.
 template <class Options>
 Files files_of_drawing(const Options& options) {
-  return together({files_of(options.input),
-                   {options.style.name, options.looks.element_colours, options.labels.title_values},
-                   options.looks.colour_map_files});
+  Files files{file_of(options.input)};
+  for (const GivenSetting& named : files_named_by(options)) files.push_back(data_path(named.value).file);
+  return files;
 }
 
 }  // namespace

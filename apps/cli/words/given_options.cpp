@@ -5,7 +5,6 @@
 
 #include "bihive/base/setting_name.h"
 #include "bihive/job/picture_options.h"
-#include "bihive/job/picture_record.h"
 
 namespace bihive::cli {
 

@@ -61,10 +61,6 @@ double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& cam
 Camera choose_camera(const Input& input, const PictureRequest& request, const RenderSettings& settings,
                      const WholeSet* whole) {
   const bool user_places = request.eye || request.look_at || request.up;
-  if (user_places && request.view_from)
-    fail_setting("view_from", " and " + setting_name("eye") + ", " + setting_name("look_at") + " or " +
-                                  setting_name("up") + " contradict each other");
-
   Camera camera = input.scene.camera;
   camera.fov_deg = request.fov_deg.value_or(camera.fov_deg);
   const Projection projection = request.projection.value_or(camera.projection);

@@ -9,8 +9,11 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/report_text.h"
+#include "bihive/scene/colour_by.h"
+#include "bihive/scene/element_colours.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
+#include "bihive/scene/style.h"
 #include "bihive/settings/parameter_text.h"
 
 namespace bihive {
@@ -220,6 +223,7 @@ void add_camera(Rows& rows) {
         .help = "Show the whole set from this side (files: front)",
         .theme = kTheme,
         .ranks = kChunks,
+        .excludes = {"eye", "look_at", "up"},
         .take = into(&PictureRequest::view_from, choice(kSides))},
        {.id = "eye",
         .value_name = "X,Y,Z",
@@ -521,6 +525,21 @@ const RequestOption<PictureRequest>* picture_option(std::string_view id) {
   for (const Row& row : picture_options())
     if (row.id == id) return &row;
   return nullptr;
+}
+
+bool names_file(std::string_view id, const std::string& value) {
+  if (id == "style") return !style_named(value);
+  if (id == "element_colours") return !element_colours_called(value);
+  if (id == "colour_by") return !colour_map_file(value).empty();
+  return id == "title_values" || id == "trajectory";
+}
+
+std::vector<GivenSetting> files_named_by(const PictureRequest& request) {
+  std::vector<GivenSetting> files;
+  for (const GivenSetting& one : request.given)
+    if (one.id != "colour_by" && names_file(one.id, one.value)) files.push_back(one);
+  for (const std::string& map : request.looks.colour_map_files) files.push_back({"colour_by", map});
+  return files;
 }
 
 void take_setting(PictureRequest& request, const std::string& id, const std::string& value) {

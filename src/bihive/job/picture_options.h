@@ -31,6 +31,11 @@ RequestOption<PictureRequest> samples_option(std::int64_t most);
 /// The row of an id; null: none.
 const RequestOption<PictureRequest>* picture_option(std::string_view id);
 
+/// Whether the value of this setting is a path.
+bool names_file(std::string_view id, const std::string& value);
+/// The files that the settings of a request name, besides its input: settings and paths.
+std::vector<GivenSetting> files_named_by(const PictureRequest& request);
+
 /// Sets one setting by its id. Fails with kBadUsage on an unknown id, a value out of range, an option given twice, or
 /// one that another excludes.
 void take_setting(PictureRequest& request, const std::string& id, const std::string& value);

@@ -12,9 +12,6 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/picture_options.h"
 #include "bihive/job/report_text.h"
-#include "bihive/scene/colour_by.h"
-#include "bihive/scene/element_colours.h"
-#include "bihive/scene/style.h"
 
 namespace bihive {
 namespace {
@@ -77,13 +74,8 @@ bool replaces(const std::string& change, const std::string& recorded) {
     return row != nullptr && std::find(row->excludes.begin(), row->excludes.end(), other) != row->excludes.end();
   };
   if (excludes(change, recorded) || excludes(recorded, change)) return true;
-  const auto is_one_of = [](const std::string& id, std::initializer_list<const char*> ids) {
-    return std::find(ids.begin(), ids.end(), id) != ids.end();
-  };
-  const auto places_eye = [&](const std::string& id) { return is_one_of(id, {"eye", "look_at", "up"}); };
-  if (change == "view_from") return places_eye(recorded);
-  if (places_eye(change)) return recorded == "view_from";
-  return is_one_of(change, {"colour", "colour_by"}) && is_one_of(recorded, {"colour", "colour_by"});
+  const auto is_colour = [](const std::string& id) { return id == "colour" || id == "colour_by"; };
+  return is_colour(change) && is_colour(recorded);
 }
 
 // The value of the next colour_by among the options as understood: with colours in place of a map's file.
@@ -105,13 +97,6 @@ ordered_json pairs(const Settings& settings) {
 
 }  // namespace
 
-bool names_file(std::string_view id, const std::string& value) {
-  if (id == "style") return !style_named(value);
-  if (id == "element_colours") return !element_colours_called(value);
-  if (id == "colour_by") return !colour_map_file(value).empty();
-  return id == "title_values" || id == "trajectory";
-}
-
 PictureRecord record_of(const PictureRequest& request, std::string pixels_sha256) {
   PictureRecord record{std::string(version()), std::string(commit()), "", {}, {}, std::move(pixels_sha256)};
   const std::string& input = request.input.input;
@@ -123,11 +108,10 @@ PictureRecord record_of(const PictureRequest& request, std::string pixels_sha256
   for (GivenSetting one : request.given) {
     if (changes_nothing(one, request.view)) continue;
     if (one.id == "colour_by") one.value = next_colour_by(request.looks.words, next_word);
-    if (names_file(one.id, one.value))
-      record.files.push_back(recorded_file(one.id, one.value));
-    else
-      record.settings.push_back(std::move(one));
+    if (!names_file(one.id, one.value)) record.settings.push_back(std::move(one));
   }
+  for (const GivenSetting& file : files_named_by(request))
+    if (file.id != "colour_by") record.files.push_back(recorded_file(file.id, file.value));
   // Actions in their order after everything else, whose order means nothing: the same in every front end.
   const auto place = [](const GivenSetting& one) {
     return is_action(one.id) ? picture_options().size()

@@ -1,6 +1,6 @@
-// What the file of a picture says of how it was made, so that the picture can be drawn again and compared. A picture is
-// a function of its inputs and of these settings, the same bits on every machine; so the record holds neither threads
-// nor instruction sets, times or folders.
+// Metadata in a picture's file from which the picture can be rendered again and compared. A picture is a function of
+// its inputs and of these settings, the same bits on every machine, so the record holds neither threads nor instruction
+// sets, times or folders.
 #pragma once
 
 #include <string>
@@ -37,17 +37,14 @@ PictureRecord record_of(const PictureRequest& request, std::string pixels_sha256
 std::string to_text(const PictureRecord& record);
 Result<PictureRecord> picture_record_from(std::string_view text);
 
-/// The request for the recorded picture. `folder`: where the figure lies. `changes`: settings in place of recorded
-/// ones; what comes before a `select` acts on all spheres, and before the recorded selections. `input`: in place of the
-/// recorded one; empty: that. Files that nobody names are looked for by their names, in `folder` and in the current
-/// one. Fails with kBadUsage on a file that is not there, and as take_setting().
+/// Restores the request of the recorded picture. `folder` is that of the figure, `input` replaces the recorded input
+/// unless it is empty. `changes` replace recorded settings; those before a `select` apply to all spheres, and come
+/// before the recorded selections. Other files are searched by name in `folder`, then in the current folder. Fails with
+/// kBadUsage on a missing file, and as take_setting().
 PictureRequest request_again(const PictureRecord& record, const std::string& folder, const std::string& input,
                              const std::vector<GivenSetting>& changes);
 
 /// The options of recorded files (kInputFile among them) whose bytes are others in this request.
 std::vector<std::string> changed_files(const PictureRecord& record, const PictureRequest& request);
-
-/// Whether the value of this setting is a path.
-bool names_file(std::string_view id, const std::string& value);
 
 }  // namespace bihive

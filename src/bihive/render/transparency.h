@@ -74,9 +74,9 @@ class TransparentSpheres {
   Hit closest_opaque(const Ray& ray) const;
   /// All crossings of the ray's segment, by t and then by id; of a class the first.
   void find_crossings(const Ray& ray, std::vector<Crossing>& found) const;
-  /// What arrives at the ray's end: 0 behind an opaque sphere, else the product of what the crossed spheres in no class
-  /// let through, in the order of the crossings, and of what the first of each class lets through, in the order of the
-  /// classes, times the product of their tints.
+  /// Transmittance along the ray: 0 behind an opaque sphere, else the product of the shares of the crossed spheres in
+  /// no class, in the order of the crossings, and of the first sphere of each class, in the order of the classes, times
+  /// the product of their tints.
   Vec3d share(const Ray& ray) const;
 
   /// Many rays at a time. Each ray's answer goes to its place, all crossings to one list: by ray, t and id. hides: 1

@@ -16,7 +16,7 @@ enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 
 /// The settings of a picture, and those of a renderer alone.
 struct RenderSettings : PictureSettings {
-  /// Multiplies the widths of lines, for a preview in another size; 0: no outlines and creases.
+  /// Multiplies the widths of outlines and creases, for a preview in another size; 0: none.
   double line_scale = 1;
   double dots_per_inch = 0;  ///< of the picture in print, for letters and for lines in points; 0: not stated
   View view = View::shaded;

@@ -23,7 +23,7 @@ constexpr Vec3d kLightEdges{0.8, 0.8, 0.8};
 std::optional<CellLines> cell_lines_of(const Scene& scene, const RenderSettings& settings) {
   if (settings.view != View::shaded || !settings.cell_lines) return std::nullopt;
   CellLines lines = *settings.cell_lines;
-  lines.width_px *= line_unit_px(settings) * (settings.line_scale > 0 ? settings.line_scale : 1);
+  lines.width_px *= line_unit_px(settings);
   const Vec3d& light = scene.background;
   const double brightness = 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z;
   if (lines.colour == CellLines().colour && !settings.transparent && brightness < kDarkBackground)
