@@ -1,4 +1,4 @@
-// What Figure 4.4 is made of besides the counted work of rays (bihive/thesis/cost_model.h): the times of frames by the
+// The inputs of Figure 4.4 other than the counted work of rays (bihive/thesis/cost_model.h): frame times of the
 // programs that use the text's tree (the thesis program, the reference engine, the shader), and the text's claims.
 #pragma once
 

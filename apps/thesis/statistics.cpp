@@ -48,7 +48,7 @@ double volume_of(const Aabb& box) {
 struct Pending {
   std::int64_t node;
   std::size_t depth;
-  Aabb box;  // of the node, in stored units
+  Aabb box;  // bounds of the node, in stored units
 };
 
 Json reasons_of(const Tree& tree) {

@@ -72,7 +72,7 @@ std::unique_ptr<FilmSink> open_film(const FilmPlan& plan, const FilmOptions& opt
   return kind == FilmKind::y4m ? open_y4m(plan, folder) : open_encoded(plan, options.picture.output, ffmpeg, folder);
 }
 
-// Where the pictures of a shard, or all, are shown first.
+// The first position of each picture of a shard, or of the film.
 PictureNumbers first_positions(const FilmPlan& plan, const Shard& shard) {
   const std::int64_t held = plan.asked.order.hold_first, end = held + plan.asked.pictures;
   if (held == 0 || shard.index > 0) return PictureNumbers::every(shard.count, held + shard.index, end);

@@ -30,7 +30,7 @@ bool is_exr(const std::string& output);
 /// and the exposure and curve that scene or style mean for a screen. Fails if options contradict the file's kind.
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
 
-/// The rows of a PNG of that picture, labels included. `pixels`: of the whole picture, those of the film.
+/// Converts a band of the film to the pixels of a PNG, with labels. `pixels`: the band's place in the whole picture.
 PngPixels png_rows(const PictureRequest& options, const Scene& scene, const RenderSettings& settings, const Film& film,
                    const Tile& pixels);
 
