@@ -140,6 +140,14 @@ class Info(ProgramTest):
         self.assertIn({"name": "charge", "min": None, "max": None}, attributes)
         self.assertIn({"name": "mass", "min": 1, "max": 1}, attributes)
 
+    def test_speed_is_the_length_of_the_velocity(self):
+        self.write("a.csv", "x,y,z,r,vx,vy,vz\n0,0,0,1,3,4,0\n9,0,0,1,0,0,-2\n")
+        facts = self.succeed_json("info", "a.csv", "--attributes")["attributes"]
+        self.assertIn({"name": "speed", "kind": "number", "min": 2, "max": 5, "nan": 0}, facts)
+        self.write("a.csv", "x,y,z,r,vx,vy,vz,speed\n0,0,0,1,3,4,0,7\n")
+        facts = self.succeed_json("info", "a.csv", "--attributes")["attributes"]
+        self.assertEqual([(fact["min"], fact["max"]) for fact in facts if fact["name"] == "speed"], [(7, 7)])
+
     def test_attributes(self):
         # Counted here by the columns of the format.
         facts = self.succeed_json("info", "demo", "--attributes")

@@ -326,7 +326,7 @@ class KeptIndex(ProgramTest):
 
     def test_an_index_that_is_wrong(self):
         """Each frame that is read is looked at, and so is what follows the last one."""
-        mark = b"bihive frames 2\n"
+        mark = b"bihive frames 3\n"
         index = self.read("a.xyz.bihive-index")
         self.assertTrue(index.startswith(mark))
         at = len(mark) + 9 * 8
@@ -337,7 +337,7 @@ class KeptIndex(ProgramTest):
 
         def put(frames, lines=lines, text_follows=0):
             content = index[: at - 16] + struct.pack("<2qQ", lines, text_follows, len(frames))
-            content += b"".join(struct.pack("<3q", *one) for one in frames) + struct.pack("<2Q", 0, 0)
+            content += b"".join(struct.pack("<3q", *one) for one in frames) + struct.pack("<3Q", 0, 0, 0)
             total = 0xCBF29CE484222325
             for byte in content:
                 total = (total ^ byte) * 0x100000001B3 % 2**64

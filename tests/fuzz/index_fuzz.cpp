@@ -18,7 +18,7 @@ void check(const std::optional<FrameIndex>& index, const IndexedFile& file) {
     fuzz::require(frame.lines_before >= 0 && frame.lines_before <= frame.begin && frame.lines_before <= index->lines);
     end = frame.end;
   }
-  for (const auto* places : {&index->assembly_lines, &index->cell_lines})
+  for (const auto* places : {&index->assembly_lines, &index->cell_lines, &index->bond_lines})
     for (const TextPlace& place : *places)
       fuzz::require(place.begin >= 0 && place.end >= place.begin && place.end <= file.size);
 }
@@ -49,6 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fill(index.frames, data[0] & 15);
   fill(index.assembly_lines, data[0] >> 4 & 3);
   fill(index.cell_lines, data[0] >> 6);
+  fill(index.bond_lines, data[0] >> 5 & 3);
   const std::string written = encode_index(index, file);
   const std::optional<FrameIndex> read = decode_index(written, file);
   check(read, file);

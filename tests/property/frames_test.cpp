@@ -303,6 +303,22 @@ TEST_F(FramesTest, are_the_same_with_a_kept_index) {
   }
 }
 
+TEST_F(FramesTest, know_bonds_that_follow_the_last_one) {
+  const std::string model =
+      "HETATM    1  C   LIG A   1       9.500   5.000   5.000  1.00  0.00           C\n"
+      "HETATM    2  O   LIG A   2       0.500   5.000   5.000  1.00  0.00           O\n"
+      "ENDMDL\n";
+  const std::string cell = "CRYST1   10.000   10.000   10.000  90.00  90.00  90.00 P 1           1\n";
+  const std::string path = write({"bonds.pdb", cell + model + model + "CONECT    1    2\n"});
+  ReadOptions options;
+  options.wrapping = Wrapping::unwrap;
+  for (int time = 0; time < 2; ++time) {
+    const Result<FramesPointer> frames = open_frames(path, options, FramesOptions{true});
+    ASSERT_TRUE(frames.ok()) << frames.error().to_string();
+    for (const std::int64_t frame : {1, 0}) EXPECT_EQ((*frames)->read(frame)->spheres.centre(1).x, 10.5);
+  }
+}
+
 TEST_F(FramesTest, need_a_file) {
   for (const std::string& path : {folder_, folder_ + "/none.xyz", write({"empty.xyz", ""})}) {
     const Result<FramesPointer> frames = open_frames(path, {});

@@ -99,6 +99,16 @@ class ByDuckTyping(unittest.TestCase):
             self.assertEqual(s.cell[0].tolist(), [10, 0, 0])
         self.assertEqual(bh.render(universe.atoms, size=SIZE, select="name OW").size, SIZE)
 
+    def test_velocities_of_atoms(self):
+        universe = Universe()
+        self.assertNotIn("vx", bh.Tree(universe).spheres.columns)
+        universe.atoms.velocities = np.array([[3, 4, 0], [0, 0, -2], [1, 2, 2]], dtype=np.float32)
+        s = bh.Tree(universe).spheres
+        self.assertEqual(s["vz"].tolist(), [0, -2, 2])
+        self.assertEqual(s["speed"].tolist(), [5, 2, 3])
+        self.assertEqual(bh.select(s, "speed > 2.5").tolist(), [True, False, True])
+        self.assertNotIn("fx", s.columns)
+
     def test_atoms_without_elements(self):
         universe = Universe()
         universe.atoms.elements = np.array(["", "", ""], dtype=object)

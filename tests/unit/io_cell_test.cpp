@@ -192,6 +192,49 @@ TEST(Unwrap, GoesAlongBondsInWhateverOrder) {
   EXPECT_EQ(all_x(read_text(sdf, "a.sdf", options)), (std::vector<double>{9, 10.5}));
 }
 
+// Two residues of a chain on either side of the cell's border, a water, and an atom whose number two atoms have.
+const std::string kLinkedResidues =
+    "CRYST1   10.000   10.000   10.000  90.00  90.00  90.00 P 1           1\n"
+    "ATOM      7  CA  ALA A   1       9.000   5.000   5.000  1.00  0.00           C\n"
+    "ATOM      8  C   ALA A   1       9.900   5.000   5.000  1.00  0.00           C\n"
+    "ATOM      9  N   GLY A   2       0.800   5.000   5.000  1.00  0.00           N\n"
+    "ATOM     10  CA  GLY A   2       1.700   5.000   5.000  1.00  0.00           C\n"
+    "HETATM   11  O   HOH A   3       0.500   1.000   1.000  1.00  0.00           O\n"
+    "HETATM   12 NA    NA A   4       1.000   1.000   1.000  1.00  0.00          NA\n"
+    "HETATM   12 CL    CL A   5       9.500   1.000   1.000  1.00  0.00          CL\n";
+
+TEST(Unwrap, JoinsResiduesAlongConect) {
+  const std::vector<double> apart{9, 9.9, 0.8, 1.7, 0.5, 1, 9.5}, together{9, 9.9, 10.8, 11.7, 0.5, 1, 9.5};
+  const auto x_with = [](const std::string& records) {
+    return all_x(read_text(kLinkedResidues + records, "a.pdb", with(Wrapping::unwrap)));
+  };
+  EXPECT_EQ(x_with(""), apart);
+  EXPECT_EQ(x_with("CONECT    8    7    9\nCONECT    9    8\n"), together);
+  EXPECT_EQ(x_with("CONECT    9    8\r\n"), together);
+  EXPECT_EQ(x_with("CONECT 9 8\n"), together);
+  // Numbers that no atom has, or two atoms, and what is no number.
+  EXPECT_EQ(x_with("CONECT   11   12\nCONECT    8   99\nCONECT\nCONECT    x    9\nCONECT    8\n"), apart);
+  const SphereFile file = read_text(kLinkedResidues + "CONECT    8    9\n", "a.pdb", with(Wrapping::unwrap));
+  EXPECT_EQ(file.rules.back(),
+            "unwrapped: along the bonds that the file states, and the spheres of a residue (chain, number and name) "
+            "each next to the one before");
+}
+
+TEST(Unwrap, KnowsConectOfWideNumbersAndOfAlternates) {
+  const std::string cell = "CRYST1   10.000   10.000   10.000  90.00  90.00  90.00 P 1           1\n";
+  const std::string wide =
+      "HETATM100000  C   LIG A   1       9.500   5.000   5.000  1.00  0.00           C\n"
+      "HETATM100001  O   LIG A   2       0.500   5.000   5.000  1.00  0.00           O\n";
+  EXPECT_EQ(all_x(read_text(cell + wide + "CONECT100000 100001\n", "a.pdb", with(Wrapping::unwrap))),
+            (std::vector<double>{9.5, 10.5}));
+  const std::string alternates =
+      "HETATM    1  C  ALIG A   1       5.000   5.000   5.000  0.40  0.00           C\n"
+      "HETATM    2  C  BLIG A   1       9.500   5.000   5.000  0.60  0.00           C\n"
+      "HETATM    3  O   HOH A   2       0.500   5.000   5.000  1.00  0.00           O\n";
+  EXPECT_EQ(all_x(read_text(cell + alternates + "CONECT    2    3\n", "a.pdb", with(Wrapping::unwrap))),
+            (std::vector<double>{9.5, 10.5}));
+}
+
 TEST(Wrap, MovesWholeMoleculesByTheirMiddle) {
   const SphereFile file = read_text(kTwoWaters, "a.pdb", with(Wrapping::wrap_molecules));
   EXPECT_EQ(all_x(file), (std::vector<double>{-0.2, 0.4, 0.5, 10.2, 9.6}));

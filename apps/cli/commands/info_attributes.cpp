@@ -66,6 +66,15 @@ std::vector<AttributeFacts> facts_of(const SphereSet& spheres) {
   }
   add_numbers(facts, "opacity", "number", attributes.opacity);
   for (const NamedNumbers& column : attributes.numbers) add_numbers(facts, column.name, "number", column.values);
+  // Selections and colours know the length of the velocity where no column has its name.
+  const NamedNumbers *const vx = attributes.find_numbers("vx"), *const vy = attributes.find_numbers("vy"),
+                            *const vz = attributes.find_numbers("vz");
+  if (vx != nullptr && vy != nullptr && vz != nullptr && attributes.find_numbers("speed") == nullptr) {
+    std::vector<double> speed;
+    for (std::size_t i = 0; i < vx->values.size(); ++i)
+      speed.push_back(length(Vec3d{vx->values[i], vy->values[i], vz->values[i]}));
+    add_numbers(facts, "speed", "number", speed);
+  }
   for (const NamedTexts& column : attributes.texts) {
     AttributeFacts one;
     one.name = column.name;

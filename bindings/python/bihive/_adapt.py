@@ -136,6 +136,10 @@ def _of_atom_group(group: Any) -> Spheres:
         values = _attribute(group, name)
         if values is not None and len(values) == len(group.positions):
             columns[own] = [str(one) for one in values] if np.asarray(values).dtype.kind in "USO" else values
+    for name, axes in (("velocities", "vx vy vz"), ("forces", "fx fy fz")):
+        vectors = _attribute(group, name)
+        if vectors is not None and np.shape(vectors) == (len(group.positions), 3):
+            columns.update(zip(axes.split(), np.asarray(vectors, dtype=np.float64).T))
     elements = _elements_of(group)
     radii = _attribute(group, "radii")
     if elements is None and radii is None:

@@ -34,6 +34,7 @@ struct RawSpheres {
   /// Pairs of spheres between which the file states a bond; without any it may still have some. They serve
   /// Wrapping::unwrap alone.
   std::vector<std::array<std::int32_t, 2>> bonds;
+  bool bonds_are_some = false;  ///< the format leaves out the bonds within residues of known kinds
   std::optional<Cell> cell;
   std::optional<double> time_ps;     ///< picoseconds
   std::optional<std::int64_t> step;  ///< of the simulation

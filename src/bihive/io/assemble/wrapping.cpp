@@ -153,9 +153,13 @@ Together by_residue(const RawSpheres& raw, const NamedNumbers& number) {
 std::optional<Together> find_together(const RawSpheres& raw) {
   if (const NamedNumbers* const molecule = column_of(raw, {"mol", "molecule", "mol_id", "molecule_id"}))
     return by_molecule(*molecule);
-  if (!raw.bonds.empty()) return by_bonds(raw);
-  if (const NamedNumbers* const residue = column_of(raw, {"resid"})) return by_residue(raw, *residue);
-  return std::nullopt;
+  const NamedNumbers* const residue = column_of(raw, {"resid"});
+  if (raw.bonds.empty()) return residue != nullptr ? std::optional(by_residue(raw, *residue)) : std::nullopt;
+  if (residue == nullptr || !raw.bonds_are_some) return by_bonds(raw);
+  Together together = by_bonds(raw), residues = by_residue(raw, *residue);
+  together.pairs.insert(together.pairs.end(), residues.pairs.begin(), residues.pairs.end());
+  together.known_by += ", and " + residues.known_by;
+  return together;
 }
 
 // Brings each sphere to the image that is nearest to a neighbour which is in its place already. The first sphere of a

@@ -16,6 +16,7 @@ struct FrameIndex {
   PlaceList frames;          ///< one after the other, the first from byte 0 on
   PlaceList assembly_lines;  ///< PDB: runs of REMARK 350
   PlaceList cell_lines;      ///< PDB: each CRYST1
+  PlaceList bond_lines;      ///< PDB: runs of CONECT
   bool text_behind = false;  ///< XYZ: text that is no frame follows the last one
   std::int64_t lines = 0;    ///< up to the end of the last frame
 

@@ -15,7 +15,7 @@ namespace bihive {
 namespace {
 
 // The digit at the end is the version.
-constexpr std::string_view kIndexMark = "bihive frames 2\n";
+constexpr std::string_view kIndexMark = "bihive frames 3\n";
 constexpr std::string_view kMarkOfAnyVersion = kIndexMark.substr(0, kIndexMark.size() - 2);
 constexpr std::size_t kSumBytes = 8;
 constexpr std::size_t kPlaceBytes = 24;
@@ -87,7 +87,8 @@ std::string encode_index(const FrameIndex& index, const IndexedFile& file) {
   std::string bytes(kIndexMark);
   for (const std::int64_t number : head_of(file)) put(bytes, number);
   for (const std::int64_t number : {index.lines, std::int64_t{index.text_behind}}) put(bytes, number);
-  for (const auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines}) put(bytes, *places);
+  for (const auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines, &index.bond_lines})
+    put(bytes, *places);
   put(bytes, sum_of(bytes));
   return bytes;
 }
@@ -113,7 +114,7 @@ std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile
   std::int64_t text_behind = 0;
   if (!reader.take(index.lines) || !reader.take(text_behind)) return std::nullopt;
   index.text_behind = text_behind != 0;
-  for (auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines})
+  for (auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines, &index.bond_lines})
     if (!take(reader, *places, file.size)) return std::nullopt;
   // Frames follow each other without a gap, and each has a line at least.
   std::int64_t end = 0;

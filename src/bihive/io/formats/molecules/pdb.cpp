@@ -13,6 +13,7 @@
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_assemblies.h"
+#include "bihive/io/formats/molecules/pdb_bonds.h"
 #include "bihive/io/formats/molecules/pdb_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/formats/molecules/pqr_line.h"
@@ -42,7 +43,7 @@ class PdbReader {
       } else if (record == "REMARK" && pdb_columns(scanner_.line(), 8, 10) == "350") {
         if (pass_.index != nullptr) continue;
         assemblies_.add_line(scanner_.line());
-        note_assembly_line(begin);
+        if (pass_.made != nullptr) note_line(pass_.made->assembly_lines, begin);
       } else if (record == "CRYST1") {
         if (pass_.index != nullptr) continue;
         // The last cell before the model's end counts. Where there is none, the first behind it does.
@@ -51,6 +52,10 @@ class PdbReader {
         any_cell = true;
         if (pass_.made != nullptr)
           pass_.made->cell_lines.push_back({begin, scanner_.place(), scanner_.line_number() - 1});
+      } else if (record == "CONECT") {
+        if (pass_.index != nullptr) continue;
+        bonds_.add_line(scanner_.line());
+        if (pass_.made != nullptr) note_line(pass_.made->bond_lines, begin);
       } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
         if (in_model) notes.end_frame(scanner_);
         in_model = false;
@@ -102,9 +107,7 @@ class PdbReader {
   }
 
   // Runs of lines become one place.
-  void note_assembly_line(std::int64_t begin) {
-    if (pass_.made == nullptr) return;
-    PlaceList& places = pass_.made->assembly_lines;
+  void note_line(PlaceList& places, std::int64_t begin) {
     if (places.empty() || places.back().end != begin) places.push_back({begin, begin, scanner_.line_number() - 1});
     places.set_last_end(scanner_.place());
   }
@@ -119,6 +122,8 @@ class PdbReader {
     };
     for (const TextPlace& place : index.assembly_lines)
       for_lines(place, [this](std::string_view line) { assemblies_.add_line(line); });
+    for (const TextPlace& place : index.bond_lines)
+      for_lines(place, [this](std::string_view line) { bonds_.add_line(line); });
     if (index.cell_lines.empty()) return;
     const std::int64_t end = index.frames[static_cast<std::size_t>(frame_)].end;
     // The last cell before the model's end, or the first one.
@@ -206,6 +211,8 @@ class PdbReader {
     columns_.take(spheres_.attributes);
     spheres_.assemblies = assemblies_.take();
     alternates_.remove_from(spheres_);
+    bonds_.take(spheres_);
+    spheres_.bonds_are_some = true;
     if (!cell_warning_.empty()) spheres_.warnings.push_back(scanner_.file() + ": " + cell_warning_);
     if (shifted_ > 0)
       spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_shifted_line_) + ": " +
@@ -226,6 +233,7 @@ class PdbReader {
   PdbElements elements_{true};
   Alternates alternates_;
   PdbAssemblies assemblies_;
+  PdbBonds bonds_;
   ResidueNames residue_names_;
   std::string cell_warning_;
   std::int64_t unreadable_ = 0;
