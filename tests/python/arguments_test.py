@@ -181,8 +181,8 @@ class Arguments(ProgramTest):
                 self.judge(call, {**valid, name: HOSTILE[label]}, name, label)
 
     def test_every_public_name_is_tried(self):
-        tried = {"Spheres", "Tree", "Picture", "View", "Orthographic", "Perspective", "Look", "Style", "Hits", "Near",
-                 "colour_map", "convert", "film", "read", "render", "select", "stats", "view"}
+        tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Orthographic", "Perspective", "Look", "Style", "Hits", "Near",
+                 "again", "colour_map", "convert", "film", "read", "render", "select", "stats", "verify", "view"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
@@ -209,6 +209,10 @@ class Arguments(ProgramTest):
         self.try_all(bh.stats, {"spheres": self.spheres})
         self.try_all(bh.colour_map, {"values": [1.0, 2, 3, 4]})
         self.try_all(bh.read, {"path": "demo"}, options=_spheres._READING)
+        figure = self.path("figure.png")
+        bh.render("demo", **SMALL).save(figure)
+        self.try_all(bh.verify, {"figure": figure})
+        self.try_all(bh.again, {"figure": figure, "size": (8, 8)})
         self.try_all(bh.convert, {"source": "demo", "path": self.path("a.csv")}, options=_spheres._READING)
 
     def test_trees(self):

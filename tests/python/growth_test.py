@@ -54,6 +54,7 @@ def cases(folder):
     ends = ("xyz", "extxyz", "csv", "npy", "ply")
     for end in ends:
         s.save(f"{folder}/read.{end}")
+    bh.render(f"{folder}/read.xyz", **options).save(f"{folder}/figure.png")
     found = tree.contains(points)
 
     def fields(thing):
@@ -91,6 +92,9 @@ def cases(folder):
         "render": lambda: bh.render(s, **options),
         "select": lambda: bh.select(s, "charge > 0"),
         "stats": lambda: bh.stats(s),
+        "Verdict": lambda: bool(bh.verify(f"{folder}/figure.png")),
+        "verify": lambda: bh.verify(f"{folder}/figure.png"),
+        "again": lambda: bh.again(f"{folder}/figure.png", samples=1),
     }
     for thing, name in ((s, "Spheres"), (tree, "Tree"), (picture, "Picture")):
         for own, value in vars(type(thing)).items():

@@ -8,6 +8,7 @@
 
 Spheres, read       spheres of arrays, of a file; Spheres.save, convert: into a file
 render, film        pictures and films of them; Orthographic, Perspective, Look, Style determine their appearance
+verify, again       a PNG of a picture drawn again and compared, or with changes
 Tree                hits of rays
 view                the page in a browser, with spheres from memory
 select, stats       spheres that match an expression; statistics of the trees
@@ -18,6 +19,7 @@ Error               the base of all exceptions of this package
 from ._bihive import __version__
 from ._camera import Look, Orthographic, Perspective, Style
 from ._errors import Error, FileError, InputError, InputWarning, MissingError, UsageError
+from ._figures import Verdict, again, verify
 from ._film import film
 from ._picture import Picture
 from ._render import render
@@ -41,8 +43,10 @@ __all__ = [
     "Style",
     "Tree",
     "UsageError",
+    "Verdict",
     "View",
     "__version__",
+    "again",
     "colour_map",
     "convert",
     "film",
@@ -50,5 +54,6 @@ __all__ = [
     "render",
     "select",
     "stats",
+    "verify",
     "view",
 ]

@@ -9,7 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _bihive
-from ._checks import path_of, text_of
+from ._checks import boolean, path_of, text_of
 from ._errors import FileError, InputError, bad_argument, found
 
 __all__ = ["Picture"]
@@ -62,19 +62,21 @@ class Picture:
         """
         return self._core.layer(text_of("name", name, "the name of a layer"))
 
-    def save(self, path: Union[str, os.PathLike[str]], *, layers: Optional[str] = None) -> None:
+    def save(self, path: Union[str, os.PathLike[str]], *, layers: Optional[str] = None, metadata: bool = True) -> None:
         """Writes a PNG, or OpenEXR where the path ends in .exr, whole or not at all.
 
-        `layers` are names of layer() between commas, for OpenEXR ("radiance"): the file holds the same numbers. Raises
-        FileError (an OSError) if the file cannot be written, UsageError of layers that are unknown.
+        `layers` are names of layer() between commas, for OpenEXR ("radiance"): the file holds the same numbers.
+        `metadata`: the file says how it was drawn, for verify() and again() too; False: pixels alone. Raises FileError (an
+        OSError) if the file cannot be written, UsageError of layers that are unknown.
         """
         text = path_of("path", path)
         if layers is not None:
             text_of("layers", layers, "names between commas")
+        metadata = boolean("metadata", metadata)
         ending = os.path.splitext(text)[1].lower()
         if ending == ".exr":
             try:
-                self._core.save_exr(os.fsencode(text), "radiance" if layers is None else layers)
+                self._core.save_exr(os.fsencode(text), "radiance" if layers is None else layers, metadata)
             except InputError as error:
                 raise FileError(0, str(error), text) from None
             return
@@ -83,7 +85,7 @@ class Picture:
         if layers is not None:
             raise bad_argument("layers", "a PNG holds no layers", "let the path end in .exr")
         try:
-            self._core.save(os.fsencode(text))
+            self._core.save(os.fsencode(text), metadata)
         except ValueError as error:
             raise FileError(0, str(error), text) from None
 

@@ -55,15 +55,20 @@ def style_text(style: Any) -> str:
     return style.text() if isinstance(style, Style) else ""
 
 
+def picture_of(core: _bihive.Picture, level: int = 3) -> Picture:
+    """The picture; tells its warnings."""
+    for warning in core.warnings:
+        warnings.warn(warning, InputWarning, stacklevel=level)
+    return Picture(core)
+
+
 def draw(
     spheres: Optional[Spheres], words: Sequence[Union[str, bytes]], text: str, like: Optional[Picture], progress: Progress
 ) -> Picture:
     """The picture, and its warnings."""
     with Bar(progress, "rendering") as bar:
         core = _bihive.render(spheres._core if spheres is not None else None, words, text, None if like is None else like._core, bar)
-    for warning in core.warnings:
-        warnings.warn(warning, InputWarning, stacklevel=3)
-    return Picture(core)
+    return picture_of(core, 4)
 
 
 def render(

@@ -358,10 +358,11 @@ class Spheres:
             if value is not None:
                 return np.asarray(value)
         columns = self._core.columns
-        velocity = [columns.get(axis) for axis in ("vx", "vy", "vz")]
-        if name == "speed" and name not in columns and all(isinstance(v, np.ndarray) for v in velocity):
-            x, y, z = velocity
-            return np.sqrt(x * x + y * y + z * z)
+        if name == "speed" and name not in columns:
+            velocity = [columns.get(axis) for axis in ("vx", "vy", "vz")]
+            x, y, z = (axis if isinstance(axis, np.ndarray) else None for axis in velocity)
+            if x is not None and y is not None and z is not None:
+                return np.sqrt(x * x + y * y + z * z)
         if name not in columns:
             known = ", ".join(["x", "y", "z", "radius", *self.columns])
             raise KeyError(f"there is no attribute {found(name)}; there are {shortened(known)}")

@@ -16,6 +16,7 @@
 #include "bihive/image/png.h"
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/figure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/picture_record.h"
 #include "bihive/job/prepare_picture.h"
@@ -168,6 +169,32 @@ std::shared_ptr<Picture> render_picture(const std::shared_ptr<Spheres>& spheres,
   return picture;
 }
 
+std::shared_ptr<Picture> draw_again(const std::string& path, const std::string& input,
+                                    const std::vector<std::string>& words, const py::object& progress) {
+  const std::vector<GivenSetting> changes = request_of(words).given;
+  std::shared_ptr<Picture> picture;
+  wait_for(
+      [&](Work& work) {
+        picture = make_picture(nullptr, request_again(read_figure(path), path, input, changes), "", nullptr, work);
+      },
+      progress);
+  return picture;
+}
+
+// The verdict as a sentence and as JSON.
+std::pair<std::string, std::string> verify(const std::string& path, const std::string& input,
+                                           const std::string& difference, const py::object& progress) {
+  Verdict verdict;
+  wait_for(
+      [&](Work& work) {
+        verdict = verify_figure(path, input, difference, [&work](const PictureRequest& request) {
+          return std::move(make_picture(nullptr, request, "", nullptr, work)->pixels);
+        });
+      },
+      progress);
+  return {sentence_of(verdict), as_text(json_of(verdict), -1)};
+}
+
 py::array pixels_of(const py::object& self) {
   const auto& pixels = self.cast<const Picture&>().pixels;
   const py::dtype type(pixels.bits == 8 ? "u1" : ">u2");
@@ -211,7 +238,7 @@ py::object layer_of(const Picture& picture, const std::string& name) {
 }
 
 // `names` are layers between commas, known to layers_from_text(). The file holds the numbers that layer() gives.
-void save_exr(const Picture& picture, const std::string& path, const std::string& names) {
+void save_exr(const Picture& picture, const std::string& path, const std::string& names, bool metadata) {
   const std::shared_ptr<const Light> light = picture.light;
   if (light == nullptr)
     fail_usage("path: OpenEXR needs the light, and this picture has its pixels alone (unpickled or detached)",
@@ -233,15 +260,15 @@ void save_exr(const Picture& picture, const std::string& path, const std::string
             settings.height_px,
             drawn_pixels(settings),
             draw_layers(drawing.input.scene, *drawing.tracer, settings, layers, light->film, &work.cancel),
-            picture.exr_text,
+            metadata ? picture.exr_text : decltype(picture.exr_text){},
             picture.dots_per_inch};
         value_of(write_exr(path, form));
       },
       py::none());
 }
 
-std::string png_bytes(const Picture& picture) {
-  return value_of(encode_png(picture.pixels, picture.text, picture.dots_per_inch));
+std::string png_bytes(const Picture& picture, bool metadata = true) {
+  return value_of(encode_png(picture.pixels, metadata ? picture.text : PngText{}, picture.dots_per_inch));
 }
 
 py::tuple state_of(const Picture& picture) {
@@ -285,14 +312,16 @@ void bind_pictures(py::module_& module) {
       .def("layer", layer_of)
       .def("png", [](const Picture& p) { return py::bytes(png_bytes(p)); })
       .def("save",
-           [](const Picture& p, const std::string& path) {
+           [](const Picture& p, const std::string& path, bool metadata) {
              const py::gil_scoped_release unlocked;
-             value_of(write_file(path, png_bytes(p)));
+             value_of(write_file(path, png_bytes(p, metadata)));
            })
       .def("save_exr", save_exr)
       .def("detach", [](Picture& p) { p.light.reset(); })
       .def(py::pickle(&state_of, &from_state));
   module.def("render", render_picture);
+  module.def("again", draw_again);
+  module.def("verify", verify);
 }
 
 }  // namespace bihive::python
