@@ -154,6 +154,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       ->type_name("FILE");
   command.add_flag_callback(
       "--no-metadata", [&options] { options.metadata = false; }, kNoMetadata);
+  command.add_flag("--methods", options.methods, "Print a sentence for a methods section too, and an entry for BibTeX");
   add_integer(command, "--picture", options.picture_of_film, 0, kUnlimited,
               "--film: which one of its pictures, from 0; or name its frame by --frame");
 }
@@ -184,7 +185,10 @@ void add_verify(CLI::App& app, VerifyOptions& options, Request& request) {
       ->required();
   command.add_option("--difference", options.difference, "Written: a picture of where they differ; of one figure")
       ->type_name("FILE");
+  CLI::Option* methods = command.add_flag("--methods", options.methods,
+                                          "Print a sentence for a methods section instead, and an entry for BibTeX");
   add_json_flag(command, options.json);
+  methods->excludes(command.get_option("--difference"))->excludes(command.get_option("--json"));
 }
 
 void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {

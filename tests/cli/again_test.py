@@ -173,6 +173,22 @@ class Verify(AgainTest):
         self.assertEqual([verdict["verified"] for verdict in verdicts], [True, True, False])
         self.assertIn("m.xyz", verdicts[2]["error"])
 
+    def test_words_for_a_methods_section(self):
+        self.write("m.xyz", MOLECULE)
+        said = self.succeed("render", "m.xyz", *SMALL, "-o", "a.png", "--methods", "--style", "illustrative").split("\n", 2)[2]
+        self.assertRegex(said, r"^The figure was rendered with bihive [^[]* \[bihive\]: 2 spheres of m\.xyz \(SHA-256 [0-9a-f]{64}\), style illustrative, ")
+        self.assertIn("60 x 40 pixels of 4 samples, fog, outlines. ", said)
+        self.assertIn("@misc{bihive,", said)
+        self.assertEqual(self.succeed("verify", "a.png", "--methods"), said)
+        self.assertEqual(self.succeed_json("render", "m.xyz", *SMALL, "-o", "b.png", "--methods", "--style", "illustrative")["methods"], said)
+        self.succeed("render", "scenario1", "-o", "c.png", "--projection", "orthographic", "--samples", "auto", "--ao", "--shadows", *SMALL)
+        self.assertIn(
+            " of the built-in scene scenario1, orthographic projection, 60 x 40 pixels of as many samples as each needs, shadows, "
+            "ambient occlusion in ",
+            self.succeed("verify", "c.png", "--methods"),
+        )
+        self.fail_usage("verify", "a.png", "--methods", "--json")
+
     def test_what_is_no_figure(self):
         self.write("a.png", b"nothing")
         self.assertEqual(self.run_bihive("verify", "a.png").returncode, 1)

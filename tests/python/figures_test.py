@@ -74,6 +74,16 @@ class Figures(unittest.TestCase):
         changed.save(self.path("changed.png"))
         self.assertTrue(bh.verify(self.path("changed.png")))
 
+    def test_words_for_a_methods_section(self):
+        again = bh.again(self.path("two.png"), style="illustrative")
+        self.assertRegex(
+            again.methods,
+            r"bihive 0\.\d+\.\d+(, commit \w+(-dirty)?)? \[bihive\]: 2 spheres of two\.xyz \(SHA-256 [0-9a-f]{64}\), style illustrative, "
+            r"perspective projection of 30 degrees, 64 x 48 pixels of 1 sample, fog, outlines\.",
+        )
+        self.assertIn("@misc{bihive,", again.methods)
+        self.assertIn(": 2 spheres, perspective", bh.render(bh.Spheres([[0, 0, 0], [1, 0, 0]], radius=1), **SMALL).methods)
+
     def test_wrong_use(self):
         with self.assertRaisesRegex(bh.UsageError, "difference: is written as PNG"):
             bh.verify(self.path("two.png"), difference="a.jpg")

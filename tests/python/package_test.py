@@ -64,7 +64,8 @@ class Documentation(ProgramTest):
         options = set(re.findall(r"^\s+(?:-\w,)?(?:TRAJECTORY,)?(--[a-z-]+)", help_text, re.M))
         self.assertGreater(len(options), 50)
         # The input, the output, and what has another form here.
-        elsewhere = {"--help", "--help-all", "--output", "--layers", "--film", "--picture", "--json", "--no-metadata", "--select", "--hide", "--show"}
+        elsewhere = {"--help", "--help-all", "--output", "--layers", "--film", "--picture", "--json", "--no-metadata", "--methods",
+                     "--select", "--hide", "--show"}
         from bihive import _options
 
         known = set(_options.ONE_VALUE + _options.FLAGS + _options.SWITCHES + _options.SIZES + _options.ACTIONS + ["light"])

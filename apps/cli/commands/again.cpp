@@ -11,6 +11,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/figure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/methods_text.h"
 #include "bihive/job/prepare_picture.h"
 #include "bihive/job/report_text.h"
 #include "bihive/render/memory.h"
@@ -133,6 +134,18 @@ bool run_verify(const VerifyOptions& asked) {
   if (!options.difference.empty()) {
     if (figures.size() != 1) fail_usage("--difference is of one figure", "verify one at a time");
     check_outputs({options.difference}, {figures.front(), options.input});
+  }
+
+  if (options.methods) {
+    for (const std::string& path : figures) {
+      const Figure figure = read_figure(path);
+      RenderOptions request;
+      static_cast<PictureRequest&>(request) = request_again(figure, path, options.input, {});
+      request.output = "/dev/null";
+      const PreparedPicture prepared = prepare_render(request);
+      print(methods_text(request, prepared.described, prepared.input.scene, figure.record));
+    }
+    return true;
   }
 
   // Each for itself: one that cannot be drawn does not keep the others from it.

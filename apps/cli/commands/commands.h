@@ -21,6 +21,7 @@ struct RenderOptions : PictureRequest {
   std::optional<std::vector<Layer>> layers;
   bool json = false;
   bool metadata = true;  ///< the file says how it was made
+  bool methods = false;  ///< print methods_text() too
   std::string film;      ///< the file that describes a film, of which this is a picture; empty: none
   std::optional<std::int64_t> picture_of_film;  ///< from 0; unset: by input.frame
 };
@@ -38,6 +39,7 @@ struct VerifyOptions {
   std::vector<std::string> figures;  ///< files, or folders: all pictures in them that bihive drew
   std::string input;                 ///< in place of the figure's; empty: that
   std::string difference;            ///< a picture of where they differ; empty: none
+  bool methods = false;              ///< print methods_text() of each instead
   bool json = false;
 };
 /// False: some figure is not what its record says.

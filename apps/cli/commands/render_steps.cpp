@@ -8,6 +8,8 @@
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/methods_text.h"
+#include "bihive/job/picture_record.h"
 #include "bihive/job/prepare_picture.h"
 #include "bihive/simd/target.h"
 #include "commands/names.h"
@@ -44,6 +46,11 @@ ordered_json report_json(const RenderOptions& options, const FinishedPicture& fi
   if (is_gpu(engine)) json["gpu"] = finished.drawn.gpu;
   json["spheres"] = finished.spheres;
   return json;
+}
+
+// The picture in words, for a paper.
+std::string methods_of(const RenderOptions& options, const PreparedPicture& prepared) {
+  return methods_text(options, prepared.described, prepared.input.scene, record_of(options, ""));
 }
 
 }  // namespace
@@ -89,6 +96,7 @@ void report_render(const RenderOptions& options, const FinishedPicture& finished
                              escaped(options.output), pixels.width(), pixels.height(), grouped(finished.spheres),
                              copies, readable_ms(finished.build_ms), readable_ms(drawn.render_ms), mray_per_s),
                  {options.output});
+    if (options.methods) print_report("\n" + methods_of(options, finished.prepared), {options.output});
     return;
   }
   ordered_json json = report_json(options, finished);
@@ -103,6 +111,7 @@ void report_render(const RenderOptions& options, const FinishedPicture& finished
   json["peak_memory_bytes"] = peak_memory_bytes();
   if (const auto hash = finished.file.hash()) json["picture_hash"] = fmt::format("{:016x}", *hash);
   json["warnings"] = finished.prepared.input.warnings;
+  if (options.methods) json["methods"] = methods_of(options, finished.prepared);
   print(as_text(json, 2) + "\n");
 }
 

@@ -42,6 +42,7 @@ class Spheres:
 class Picture:
     pixels: _Array
     report: str
+    methods: str
     warnings: list[str]
     has_scene: bool
     hash: int

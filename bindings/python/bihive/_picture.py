@@ -52,6 +52,11 @@ class Picture:
         """Equal pictures have equal hashes: ``picture_hash`` of ``bihive render --json``."""
         return self._core.hash
 
+    @property
+    def methods(self) -> str:
+        """A sentence for a methods section, and an entry for BibTeX: the output of ``bihive render --methods``."""
+        return self._core.methods
+
     def layer(self, name: str) -> np.ndarray[Any, Any]:
         """Numbers of the first surface behind each pixel (height, width); a new array.
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
@@ -18,6 +19,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/figure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/methods_text.h"
 #include "bihive/job/picture_record.h"
 #include "bihive/job/prepare_picture.h"
 #include "bihive/job/render_on_gpu.h"
@@ -56,6 +58,7 @@ struct Picture {
   std::vector<std::pair<std::string, std::string>> exr_text;  // the same in UTF-8
   double dots_per_inch = 0;
   std::string report;  // JSON
+  std::string methods;
   std::vector<std::string> warnings;
   std::optional<FixedByFilm> fixed;  // for pictures like it; unset: it was unpickled
 };
@@ -140,8 +143,14 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
     picture->exr_text.emplace_back(name, value);
   }
   // Spheres, styles and cameras in memory are in no file from which the picture could be drawn again.
-  if (spheres == nullptr && style_text.empty() && like == nullptr)
-    picture->text.emplace_back(kLateKeyword, to_text(record_of(options, sha256_of(picture->pixels))));
+  PictureRecord record;
+  if (spheres == nullptr && style_text.empty() && like == nullptr) {
+    record = record_of(options, sha256_of(picture->pixels));
+    picture->text.emplace_back(kLateKeyword, to_text(record));
+  }
+  record.version = version();
+  record.commit = commit();
+  picture->methods = methods_text(options, described, scene, record);
   nlohmann::ordered_json report;
   report["scene"] = scene.name;
   report["spheres"] = scene.spheres.size();
@@ -277,7 +286,7 @@ py::tuple state_of(const Picture& picture) {
   py::list text;
   for (const auto& [name, value] : picture.text) text.append(py::make_tuple(py::bytes(name), py::bytes(value)));
   return py::make_tuple(pixels.width, pixels.height, pixels.channels, pixels.bits, bytes, text, picture.dots_per_inch,
-                        picture.report);
+                        picture.report, picture.methods);
 }
 
 std::shared_ptr<Picture> from_state(const py::tuple& state) {
@@ -297,6 +306,7 @@ std::shared_ptr<Picture> from_state(const py::tuple& state) {
   }
   picture->dots_per_inch = state[6].cast<double>();
   picture->report = state[7].cast<std::string>();
+  picture->methods = state[8].cast<std::string>();
   return picture;
 }
 
@@ -306,6 +316,7 @@ void bind_pictures(py::module_& module) {
   py::class_<Picture, std::shared_ptr<Picture>>(module, "Picture")
       .def_property_readonly("pixels", pixels_of)
       .def_property_readonly("report", [](const Picture& p) { return p.report; })
+      .def_property_readonly("methods", [](const Picture& p) { return p.methods; })
       .def_property_readonly("warnings", [](const Picture& p) { return safe_texts(p.warnings); })
       .def_property_readonly("has_scene", [](const Picture& p) { return p.light != nullptr; })
       .def_property_readonly("hash", [](const Picture& p) { return picture_hash(p.pixels); })
