@@ -311,6 +311,17 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   command.add_flag("--trees", options.trees, "Predict the memory of the trees too, and name the instruction set")
       ->excludes(attributes)
       ->excludes(frames);
+  std::vector<CLI::Option*> measures;
+  const auto add_measure = [&](const char* name, std::vector<std::string>& texts, const char* help, const char* type) {
+    measures.push_back(command.add_option(name, texts, help)->type_name(type)->allow_extra_args(false));
+    for (CLI::Option* other : {attributes, frames}) measures.back()->excludes(other);
+  };
+  add_measure("--distance", options.distances,
+              "Distance of two spheres in each frame, as CSV: their positions from 0, by the\n"
+              "nearest images of a periodic cell (--no-periodic: as they lie); repeatable",
+              "I,J");
+  add_measure("--angle", options.angles, "Angle at the second of three spheres, degrees; the same", "I,J,K");
+  add_measure("--dihedral", options.dihedrals, "Dihedral angle of a chain of four, -180 to 180; the same", "I,J,K,L");
   command.add_flag("--keep-index", options.keep_index, "Text: keep the offsets of the frames in FILE.bihive-index")
       ->needs(frames);
   add_tree_options(command, options.tree);

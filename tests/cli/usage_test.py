@@ -75,6 +75,22 @@ class Help(ProgramTest):
             self.assertIn(f"did you mean {near}?", self.fail_usage("render", "demo", "-o", "a.png", word))
         self.assertNotIn("did you mean", self.fail_usage("render", "demo", "-o", "a.png", "--zzzzzzzz"))
 
+    def test_options_of_other_programs(self):
+        for command in ("render", "film"):
+            for word in ("--cartoon", "--surface", "--arrows=vx,vy,vz", "--bonds"):
+                said = self.fail_usage(command, "demo", "-o", "a.png", word)
+                self.assertIn("bihive draws spheres alone; docs/coming_from.md", said)
+        for word, ours in [("--perspective", "--projection perspective"), ("--transparency=0.3", "--opacity"), ("--width", "--size WxH")]:
+            self.assertIn(f"did you mean {ours}", self.fail_usage("render", "demo", "-o", "a.png", word))
+        # None of them is an option of ours, and each advice names one.
+        with open(os.path.join(os.environ["BIHIVE_SOURCE"], "apps/cli/words/foreign_options.h"), encoding="utf-8") as file:
+            table = file.read()
+        ours = set(re.findall(r"--[a-z-]+", self.succeed("render", "--help-all") + self.succeed("film", "--help-all")))
+        foreign = [name for names in re.findall(r'ForeignOption\{((?:\s*"[^"]*")+)', table) for name in re.findall(r"--[a-z-]+", names)]
+        self.assertGreater(len(foreign), 30)
+        self.assertEqual(set(foreign) & ours, set())
+        self.assertEqual(set(re.findall(r"did you mean (--[a-z-]+)", table)) - ours, set())
+
 
 class WrongUsage(ProgramTest):
     def render(self, *arguments):

@@ -141,14 +141,19 @@ void run_scene(const SceneOptions& options);
 struct InfoOptions {
   InputOptions input;
   TreeParameters tree;
-  bool attributes = false;  ///< only the attributes of spheres
-  bool frames = false;      ///< the content of all frames
-  bool trees = false;       ///< in the text, the predicted memory of the trees too
-  bool keep_index = false;  ///< the index of the frames, beside the file
+  bool attributes = false;                                ///< only the attributes of spheres
+  bool frames = false;                                    ///< the content of all frames
+  bool trees = false;                                     ///< in the text, the predicted memory of the trees too
+  bool keep_index = false;                                ///< the index of the frames, beside the file
+  std::vector<std::string> distances, angles, dihedrals;  ///< "0,5": positions of spheres between commas
   bool json = false;
+
+  bool measures() const { return !distances.empty() || !angles.empty() || !dihedrals.empty(); }
 };
 /// `bihive info --frames`.
 void run_info_of_frames(const InfoOptions& options);
+/// `bihive info --distance`, `--angle`, `--dihedral`.
+void run_info_of_measures(const InfoOptions& options);
 void run_info(const InfoOptions& options);
 /// `bihive info --attributes`.
 void print_attributes(const Input& input, bool as_json);

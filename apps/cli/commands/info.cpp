@@ -227,9 +227,12 @@ std::optional<std::pair<double, double>> time_span_of(const InputOptions& option
 }  // namespace
 
 void run_info(const InfoOptions& options) {
-  if (options.attributes || options.frames)
-    refuse_copies(options.input,
-                  std::string(options.frames ? "--frames" : "--attributes") + " looks at the stored spheres");
+  if (options.attributes || options.frames || options.measures())
+    refuse_copies(options.input, std::string(options.measures() ? "a measure"
+                                             : options.frames   ? "--frames"
+                                                                : "--attributes") +
+                                     " looks at the stored spheres");
+  if (options.measures()) return run_info_of_measures(options);
   if (options.frames) return run_info_of_frames(options);
   const Input input = load_input(options.input);
   if (options.attributes) return print_attributes(input, options.json);

@@ -11,20 +11,16 @@
 #include <string>
 #include <vector>
 
-#include "bihive/base/parallel.h"
 #include "bihive/io/frames.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "commands/commands.h"
-#include "support/interrupt.h"
+#include "commands/each_frame.h"
 
 namespace bihive::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-// Frames read before their findings are merged: enough for all threads, and few in memory.
-constexpr std::int64_t kFramesAtOnce = 64;
 
 // Further ones are only counted.
 constexpr std::size_t kMostWarnings = 10;
@@ -105,30 +101,11 @@ Summary summary_of(const SphereFile& file) {
   return made;
 }
 
-// Reads all frames once, on all threads.
 Summary summary_of(const Frames& frames) {
   Summary all;
-  const CancellableSection section;
-  Progress progress("reading frames");
-  for (std::int64_t begin = 0; begin < frames.count(); begin += kFramesAtOnce) {
-    const std::int64_t count = std::min(kFramesAtOnce, frames.count() - begin);
-    std::vector<Summary> some(static_cast<std::size_t>(count));
-    std::vector<std::optional<Error>> errors(some.size());
-    parallel_for(0, count, [&](std::int64_t i) {
-      if (CancellableSection::token().cancelled()) return;
-      const Result<SphereFile> file = frames.read(begin + i);
-      if (file)
-        some[static_cast<std::size_t>(i)] = summary_of(*file);
-      else
-        errors[static_cast<std::size_t>(i)] = file.error();
-    });
-    CancellableSection::leave_if_cancelled();
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      if (errors[i]) value_or_fail(Status(*errors[i]));
-      all.add(some[i]);
-    }
-    progress.update(static_cast<double>(begin + count) / static_cast<double>(frames.count()));
-  }
+  each_frame<Summary>(
+      frames, "reading frames", [](std::int64_t, const SphereFile& file) { return summary_of(file); },
+      [&all](const Summary& one) { all.add(one); });
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bihive/base/near_name.h"
+#include "words/foreign_options.h"
 
 namespace bihive::cli {
 namespace {
@@ -45,6 +46,8 @@ std::string advice_on(const CLI::App* command, const std::vector<std::string>& u
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const std::string& word : unknown) {
     const std::string name = word.substr(0, word.find('='));
+    for (const ForeignOption& foreign : kForeignOptions)
+      if (foreign.names.find(" " + name + " ") != std::string_view::npos) return std::string(foreign.advice);
     const std::string near = name.rfind("--", 0) == 0 ? near_name(name, names) : "";
     if (!near.empty()) return "did you mean " + near + "? " + otherwise;
   }

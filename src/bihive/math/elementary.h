@@ -1,4 +1,4 @@
-// Powers and functions of angless made of + - x / on binary64 alone, so that a picture has the same bits on every
+// Powers and functions of angles made of + - x / on binary64 alone, so that a picture has the same bits on every
 // platform. The system's math library is not used: its last bits differ between machines.
 #pragma once
 
