@@ -47,7 +47,7 @@ class Help(ProgramTest):
     def test_help_says_every_option_of_the_contract(self):
         contract = {
             "render": "-o --size --crop --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
-            "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --radius --radius-scale "
+            "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --fit --zoom-to --radius --radius-scale "
             "--recenter --frame --json --count --seed",
             "film": "-o --frames --fps --pictures --hold-first --hold-last --reverse --ping-pong --turntable --camera-keys --colour-range --codec --shard --join --size --samples --json",
             "stats": "--max-prims --max-depth --json --count --radius --seed",
@@ -115,7 +115,7 @@ class WrongUsage(ProgramTest):
             "--projection": ["fisheye", ""],
             "--background": ["reddish", "#fff", "#12345g", "1,2", "0,0,1.5", "0,0,nan"],
             "--eye": ["1,2", "1,2,3,4", "a,b,c", "1,,3", "nan,0,0", "1e39,0,0"],
-            "--look-at": ["here"],
+            "--look-at": ["1,2", "here)"],
             "--up": ["y"],
         }
         for option, values in wrong.items():

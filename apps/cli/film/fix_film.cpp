@@ -141,8 +141,8 @@ FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, c
   fixed.width_px = drawn.width();
   fixed.height_px = drawn.height();
   fixed.camera = input.scene.camera;
-  const bool user_places = first.eye || first.look_at || first.up;
-  if (plan.asked.path.moves() && !user_places && (!input.has_camera || first.view_from))
+  const bool user_places = first.eye || first.look_at || first.up || first.fit || first.zoom_to;
+  if (plan.asked.path.moves() && !user_places && (!input.has_camera || first.view_from || first.view_of))
     fixed.camera = camera_around(input, fixed.camera, first, settings);
   if (options.range_of_colours == RangeOfColours::frame) return fixed;
   fixed.range_of_style = range_of_style(input, first.looks);

@@ -49,6 +49,11 @@ struct GivenSetting {
   std::string id, value;
 };
 
+/// A direction of view that depends on the spheres.
+struct ViewOfSpheres {
+  std::string best_of;  ///< the direction that shows most of this selection; empty: along the shortest principal axis
+};
+
 /// Unset: the scene's value.
 struct PictureRequest {
   InputOptions input;
@@ -65,9 +70,13 @@ struct PictureRequest {
   std::optional<std::int64_t> bits;       ///< 8 or 16
   double dots_per_inch = 0;               ///< 0: not stated
   std::optional<PrintSize> print_size;    ///< with `dots_per_inch` the size in `picture`
-  std::optional<Vec3d> eye, look_at, up;
+  std::optional<Vec3d> eye, up;
+  std::optional<LookAt> look_at;       ///< a point, or a selection: the centre of its bounds
+  std::optional<std::string> fit;      ///< a selection that the camera frames in place of the whole set
+  std::optional<std::string> zoom_to;  ///< a selection that the picture magnifies
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;
+  std::optional<ViewOfSpheres> view_of;  ///< in place of view_from
   std::optional<Projection> projection;
   std::optional<Turn> turn;
   std::optional<double> zoom;      ///< above 0

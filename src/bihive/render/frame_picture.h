@@ -15,6 +15,11 @@ namespace bihive {
 /// a side of the picture for themselves.
 Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings);
 
+/// The same for some of the scene's spheres, which alone are framed: others may be outside of the picture, in front of
+/// them, and behind the eye. Labels get room where they would cover the selected ones.
+Camera frame_selected(const Scene& scene, const SphereSet& selected, const Side& side, const Lens& lens,
+                      const RenderSettings& settings);
+
 /// The camera of frame_picture(), where somebody else knows all spheres: `framed` is the camera with room for these
 /// insets, `covers` tells whether an area of its picture may cover a sphere.
 Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings,

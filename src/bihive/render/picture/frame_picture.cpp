@@ -132,6 +132,19 @@ Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, con
   return frame_beside_labels(scene, settings, framed, covers);
 }
 
+Camera frame_selected(const Scene& scene, const SphereSet& selected, const Side& side, const Lens& lens,
+                      const RenderSettings& settings) {
+  RenderSettings without_cell = settings;
+  without_cell.cell_lines.reset();
+  const auto framed = [&](const Insets& insets) {
+    return frame_spheres(selected, side, lens, settings.width_px, settings.height_px, insets);
+  };
+  const auto covers = [&](const Camera& camera, const CanvasArea& area) {
+    return covers_spheres(selected, camera, without_cell, area);
+  };
+  return frame_beside_labels(scene, settings, framed, covers);
+}
+
 Camera frame_beside_labels(const Scene& scene, const RenderSettings& settings,
                            const std::function<Camera(const Insets&)>& framed,
                            const std::function<bool(const Camera&, const CanvasArea&)>& covers) {
