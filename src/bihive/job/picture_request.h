@@ -11,6 +11,7 @@
 #include "bihive/job/engine.h"
 #include "bihive/job/input.h"
 #include "bihive/job/look_options.h"
+#include "bihive/job/rigid_motion.h"
 #include "bihive/job/values.h"
 #include "bihive/math/vec3.h"
 #include "bihive/scene/camera.h"
@@ -39,6 +40,8 @@ struct FixedByFilm {
   Camera camera;  ///< of this picture
   ColourRange range_of_style;
   std::vector<ColourRange> ranges_of_looks;
+  std::optional<RigidMotion> motion{};  ///< of all spheres, before looks
+  bool fits_each = false;               ///< the camera is that of the spheres, in place of `camera`
 };
 
 /// The value of `background` for a transparent picture.

@@ -92,7 +92,8 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
                  "give a colour by " + setting_name("background") + ", or choose another view");
   settings.labels.title =
       filled_title(settings.labels.title, request, input, whole != nullptr ? whole->count : scene.spheres.size());
-  scene.camera = request.fixed ? request.fixed->camera : choose_camera(input, request, settings, selections, whole);
+  const bool is_fixed = request.fixed && !request.fixed->fits_each;
+  scene.camera = is_fixed ? request.fixed->camera : choose_camera(input, request, settings, selections, whole);
   if (const Status status = check_picture(settings, scene.camera.aperture); !status)
     fail_usage(status.error().message, status.error().hint);
   apply_look(request.style, input);
@@ -168,6 +169,8 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (const SettingValue* const transfer = request.picture.find("transfer"))
     parameter_named("transfer")->set(picture, *transfer);
   const bool is_of_film = request.fixed.has_value();
+  if (is_of_film && request.fixed->motion)
+    if (const Status status = move_spheres(input.scene.spheres, *request.fixed->motion); !status) fail(status.error());
   const CameraSelections selections = is_of_film ? CameraSelections() : CameraSelections(request, input.scene.spheres);
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
   RenderSettings settings = apply_options(request, input, selections, whole);

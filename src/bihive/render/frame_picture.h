@@ -32,6 +32,9 @@ bool covers_spheres(const SphereSet& spheres, const Camera& camera, const Render
 /// inside of them; in orthographic pictures, the plane where rays start.
 std::int64_t spheres_around_eye(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings);
 
+/// How many spheres are wholly outside of the picture.
+std::int64_t spheres_outside(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings);
+
 /// The sides that the labels of such a picture need if all of it is full of spheres.
 Insets insets_of_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 

@@ -89,6 +89,15 @@ std::int64_t spheres_around_eye(const SphereSet& spheres, const Camera& camera, 
   return count;
 }
 
+std::int64_t spheres_outside(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings) {
+  const AreaInView in_view(camera, settings, {0, 0, double(settings.width_px), double(settings.height_px)});
+  std::int64_t count = 0;
+  for_each_sphere(spheres, [&](std::int64_t, Vec3d centre, double radius) {
+    if (!in_view.meets(centre, radius)) ++count;
+  });
+  return count;
+}
+
 namespace {
 
 // The labels that `covers(area)` names get a side each: title above, legend right, scale bar below, and the axes, which
