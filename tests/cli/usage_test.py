@@ -49,7 +49,7 @@ class Help(ProgramTest):
             "render": "-o --size --crop --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
             "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --fit --zoom-to --radius --radius-scale "
             "--recenter --frame --json --count --seed",
-            "film": "-o --frames --fps --pictures --hold-first --hold-last --reverse --ping-pong --turntable --camera-keys --colour-range --codec --shard --join --size --samples --json",
+            "film": "-o --frames --fps --pictures --hold-first --hold-last --reverse --ping-pong --turntable --turn-axis --follow --align --fit-frames --camera-keys --colour-range --codec --shard --join --size --samples --json",
             "stats": "--max-prims --max-depth --json --count --radius --seed",
             "trace": "--rays --t --id --any --plane --engine --threads --count --radius --seed",
             "scene": "--count --radius --seed -o",
@@ -122,6 +122,14 @@ class WrongUsage(ProgramTest):
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.assertIn(option + ":", self.render(f"{option}={value}"))
+
+    def test_options_of_other_programs(self):
+        for command, option, meant in [("render", "--perspective=none", "--projection perspective"), ("render", "--ortho", "--projection orthographic"),
+                                       ("render", "--zoom-on=all", "--zoom-to EXPR"), ("render", "--orient", "--view-from principal"),
+                                       ("film", "--superpose=all", "--align EXPR"), ("film", "--spin", "--turntable 360")]:
+            said = self.fail_usage(command, "demo", "-o", "a.png", option)
+            self.assertIn(f"did you mean {meant}? see bihive {command} --help", said)
+        self.assertNotIn("--align", self.fail_usage("render", "demo", "-o", "a.png", "--superpose=all"))
 
     def test_negative_numbers_need_no_equals_sign(self):
         self.assertIn("--threads:", self.render("--threads", "-1"))

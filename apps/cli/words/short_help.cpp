@@ -19,6 +19,24 @@ constexpr std::array kCommonOptions{"--help",       "--help-all", "--output",   
 // A command with more options than this has a short help and a long one.
 constexpr std::size_t kLongHelp = 30;
 
+// What options of other programs are called here.
+struct ForeignOption {
+  const char *name, *option, *usage;
+};
+constexpr std::array kForeignOptions{ForeignOption{"--perspective", "--projection", "--projection perspective"},
+                                     ForeignOption{"--ortho", "--projection", "--projection orthographic"},
+                                     ForeignOption{"--orthographic", "--projection", "--projection orthographic"},
+                                     ForeignOption{"--orthoscopic", "--projection", "--projection orthographic"},
+                                     ForeignOption{"--center", "--look-at", "--look-at EXPR"},
+                                     ForeignOption{"--centre", "--look-at", "--look-at EXPR"},
+                                     ForeignOption{"--zoom-on", "--zoom-to", "--zoom-to EXPR"},
+                                     ForeignOption{"--orient", "--view-from", "--view-from principal"},
+                                     ForeignOption{"--rotate", "--turn", "--turn AZ,EL"},
+                                     ForeignOption{"--superpose", "--align", "--align EXPR"},
+                                     ForeignOption{"--intra-fit", "--align", "--align EXPR"},
+                                     ForeignOption{"--track", "--follow", "--follow EXPR"},
+                                     ForeignOption{"--spin", "--turntable", "--turntable 360"}};
+
 }  // namespace
 
 void shorten_help(CLI::App& command) {
@@ -45,6 +63,9 @@ std::string advice_on(const CLI::App* command, const std::vector<std::string>& u
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const std::string& word : unknown) {
     const std::string name = word.substr(0, word.find('='));
+    for (const ForeignOption& foreign : kForeignOptions)
+      if (name == foreign.name && std::find(names.begin(), names.end(), foreign.option) != names.end())
+        return std::string("did you mean ") + foreign.usage + "? " + otherwise;
     const std::string near = name.rfind("--", 0) == 0 ? near_name(name, names) : "";
     if (!near.empty()) return "did you mean " + near + "? " + otherwise;
   }
