@@ -120,6 +120,16 @@ class InPlace(FilmTest):
         pictures = [png_pixels(self.read(f"run/{k}.png")) for k in range(3)]
         self.assertGreater(sum(a != b for one, other in zip(pictures[0], pictures[1]) for a, b in zip(one, other)), 48 * 32 / 20)
 
+    def test_descriptions_with_wrong_motions_are_refused(self):
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL, "--follow", "index 0")
+        plan = json.loads(self.read("run/film.json"))
+        for shifts in ([[0, 0, 0]], [[1e300, 0, 0]] * 6, [[0, 0]] * 6, ["x"] * 6):
+            plan["fixed"]["shifts"] = shifts
+            self.write("wrong.json", json.dumps(plan))
+            done = self.run_bihive("render", "run.xyz", "--film", "wrong.json", "--frame", "1", "-o", "a.png")
+            self.assertEqual(done.returncode, 1, shifts)
+            self.assertIn("wrong.json: is no description of a film", done.stderr)
+
     def test_shards_know_the_same_motions(self):
         for option in ("--follow", "--align"):
             shutil.rmtree(self.path("run"), ignore_errors=True)

@@ -167,10 +167,19 @@ ordered_json motion_json(const RigidMotion& motion) {
           vector_json(motion.shift)};
 }
 
+// Of numbers that a sphere's centre may have.
+Vec3d point_of(const ordered_json& value) {
+  constexpr double kMost = 3.4e38;
+  const Vec3d point = vector_of(value);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(point[axis]) <= kMost)) throw std::out_of_range("point");
+  return point;
+}
+
 RigidMotion motion_of(const ordered_json& value) {
   RigidMotion motion;
-  for (std::size_t i = 0; i < 3; ++i) motion.rows[i] = vector_of(value.at(i));
-  motion.shift = vector_of(value.at(3));
+  for (std::size_t i = 0; i < 3; ++i) motion.rows[i] = point_of(value.at(i));
+  motion.shift = point_of(value.at(3));
   return motion;
 }
 
@@ -181,7 +190,7 @@ void add_moves(const ordered_json& value, const FilmPlan::Asked& asked, FilmPlan
     if (!(std::abs(length(*fixed.turn_axis) - 1) < 1e-6)) throw std::out_of_range("turn_axis");
   }
   if (value.contains("shifts"))
-    for (const ordered_json& one : value.at("shifts")) fixed.shifts.push_back(vector_of(one));
+    for (const ordered_json& one : value.at("shifts")) fixed.shifts.push_back(point_of(one));
   if (value.contains("motions"))
     for (const ordered_json& one : value.at("motions")) fixed.motions.push_back(motion_of(one));
   check_count(fixed.shifts.size(), asked);
