@@ -9,6 +9,7 @@
 #include "bihive/base/version.h"
 #include "bihive/io/known_formats.h"
 #include "bihive/job/failure.h"
+#include "bihive/select/selection.h"
 #include "commands/names.h"
 #include "film/film_plan.h"
 #include "request_options.h"
@@ -191,6 +192,11 @@ void add_verify(CLI::App& app, VerifyOptions& options, Request& request) {
   methods->excludes(command.get_option("--difference"))->excludes(command.get_option("--json"));
 }
 
+Result<std::string> film_selection_from(const std::string& text) {
+  if (const Status status = check_selection(text); !status) return status.error();
+  return text;
+}
+
 void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, const char* const* argv) {
   CLI::App& command = add_command(app, "film", "Make a film of a trajectory, or of a camera that moves",
                                   "bihive film run.xyz -o run.mp4 --fps 30 --title 't = {time:.1f} ps'",
@@ -219,6 +225,17 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
   add_value(command, "--turntable", options.turntable_deg, "DEG",
             "Rotation of the camera around the scene, over the whole film",
             [](const std::string& text) { return number_from_text(text, -1e6, 1e6); });
+  static const Names<std::string> kAxes{{"x", "x"}, {"y", "y"}, {"z", "z"}, {"picture", "picture"}};
+  add_choice(command, "--turn-axis", options.turn_axis, kAxes,
+             "The axis of --turntable: of the world, or the picture's vertical (the world's up)");
+  add_value(command, "--follow", options.follow, "EXPR",
+            "The camera moves with these spheres, through the boundaries of a periodic cell too", film_selection_from);
+  add_value(command, "--align", options.align, "EXPR",
+            "Move and turn all spheres of each frame until these lie over those of the first frame",
+            film_selection_from);
+  add_choice(command, "--fit-frames", options.fit_frames, kFittedFrames,
+             "The frames whose spheres the camera brings into view: the first, all of them (reads the film\n"
+             "twice), or each picture those of its own (first)");
   command.add_option("--camera-keys", options.camera_keys, "Key frames of the camera: docs/films.md")
       ->type_name("FILE");
   add_choice(command, "--colour-range", options.range_of_colours, kRangesOfColours,

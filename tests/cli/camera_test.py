@@ -160,6 +160,160 @@ class TurnAndZoom(CameraTest):
             self.assertIn("--zoom:", self.fail_usage("render", "demo", "-o", "a.png", "--zoom=" + zoom))
 
 
+# A row of ten spheres along x, the last of another kind, and one more far behind it.
+BEADS = "x,y,z,r,kind\n" + "".join(f"{4 * i},0,0,1,{'b' if i == 9 else 'a'}\n" for i in range(10)) + "36,0,-60,1,c\n"
+
+
+class Selected(CameraTest):
+    """Cameras that selections place."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("beads.csv", BEADS)
+
+    def test_look_at_a_selection_is_look_at_its_centre(self):
+        for more in ([], ["--eye", "3,4,50"], ["--projection", "orthographic"]):
+            for selection, point in [("kind b", "36,0,0"), ("index 0 3", "6,0,0"), ("index 3 or z < -10", "24,0,-30")]:
+                self.assertEqual(self.camera("beads.csv", "--look-at", selection, *more),
+                                 self.camera("beads.csv", "--look-at", point, *more), selection)
+
+    def test_fit_is_the_camera_of_a_file_with_these_spheres_alone(self):
+        self.write("two.csv", "x,y,z,r\n8,0,0,1\n12,0,0,1\n")
+        for more in ([], ["--view-from", "iso"], ["--turn", "30,20"], ["--fov", "50"], ["--size", "90x200"], ["--zoom", "2"]):
+            self.assertEqual(self.camera("beads.csv", "--fit", "index 2 3", *more), self.camera("two.csv", *more), more)
+        # In parallel rays nothing lies before the eye's plane and is cut away.
+        fitted = self.camera("beads.csv", "--fit", "z < -10", "--projection", "orthographic")
+        self.assertAlmostEqual(fitted["shorter_side"], 2 / 0.92)
+        self.assertGreater(fitted["eye"][2], 1)
+
+    def test_zoom_to_keeps_direction_and_plane_of_the_eye(self):
+        for more in ([], ["--view-from", "iso"], ["--turn", "30,20"], ["--projection", "orthographic"]):
+            before = self.camera("beads.csv", *more)
+            camera = self.camera("beads.csv", "--zoom-to", "kind b", *more)
+            back = [eye - middle for eye, middle in zip(before["eye"], before["look_at"])]
+            length = sum(x * x for x in back) ** 0.5
+            moved = [a - b for a, b in zip(camera["eye"], before["eye"])]
+            self.assertAlmostEqual(sum(m * b / length for m, b in zip(moved, back)), 0, places=6)
+            now = [eye - middle for eye, middle in zip(camera["eye"], camera["look_at"])]
+            far = sum(x * x for x in now) ** 0.5
+            for a, b in zip(now, back):
+                self.assertAlmostEqual(a / far, b / length, places=9)
+            for a, b in zip(camera["up"], before["up"]):
+                self.assertAlmostEqual(a, b, places=12)
+
+    def test_the_selected_spheres_fill_the_picture(self):
+        hide = ["--select", "not kind b", "--hide", "--no-shadows", "--samples", "1"]
+        for option in ("--fit", "--zoom-to"):
+            for more in ([], ["--projection", "orthographic"], ["--view-from", "top"], ["--fov", "80"]):
+                self.render("beads.csv", "--size", "100x100", *more, *hide, option, "kind b")
+                rows = png_pixels(self.read("a.png"))
+                filled = [y for y, row in enumerate(rows) if any(pixel != WHITE for pixel in row)]
+                self.assertTrue(3 <= filled[0] <= 5 and 94 <= filled[-1] <= 96, (option, more, filled[0], filled[-1]))
+
+    def test_zoom_to_keeps_the_camera_of_a_scene_and_fit_makes_a_new_one(self):
+        scene = {"bihive_scene": 2, "camera": {"eye": [50, 0, 0], "look_at": [0, 0, 0], "up": [0, 0, 1]},
+                 "spheres": [[0, 0, 0, 1], [0, 5, 0, 1]]}
+        self.write("s.json", json.dumps(scene))
+        zoomed = self.camera("s.json", "--zoom-to", "index 1")
+        self.assertAlmostEqual(zoomed["eye"][0], 50)
+        self.assertAlmostEqual(zoomed["eye"][1], 5, places=6)
+        self.assertEqual(zoomed["up"], [0, 0, 1])
+        fitted = self.camera("s.json", "--fit", "index 1")
+        self.assertEqual(fitted["up"], [0, 1, 0])
+        self.assertGreater(fitted["eye"][2], 2)
+        scene = {"bihive_scene": 2, "camera": {"eye": [0.5, 0, 0], "look_at": [-9, 0, 0]}, "spheres": [[0, 0, 0, 1]]}
+        self.write("inside.json", json.dumps(scene))
+        self.assertIn("--zoom-to: the camera is not in front of all spheres",
+                      self.fail_usage("render", "inside.json", "-o", "a.png", "--zoom-to", "all"))
+
+    def test_up_rolls_a_fitted_picture(self):
+        upright = self.camera("beads.csv", "--fit", "kind a", "--up", "1,0,0", "--size", "90x200", "--projection", "orthographic")
+        self.assertAlmostEqual(upright["shorter_side"], 34 / 0.92 * 90 / 200)
+        self.assertIn("up is parallel", self.fail_usage("render", "beads.csv", "-o", "a.png", "--fit", "all", "--up", "0,0,1"))
+
+    def test_selections_see_the_spheres_as_they_were_read(self):
+        hidden = ["--select", "index 0..2", "--hide"]
+        self.assertEqual(self.camera("beads.csv", *hidden, "--fit", "index 5"), self.camera("beads.csv", "--fit", "index 5"))
+        # Hidden spheres and spheres that are cut away do not count.
+        self.assertEqual(self.camera("beads.csv", *hidden, "--fit", "index 1..5"), self.camera("beads.csv", "--fit", "index 3..5"))
+        self.assertEqual(self.camera("beads.csv", "--clip", "plane:1,0,0,14", "--fit", "index 1..5"),
+                         self.camera("beads.csv", "--fit", "index 1..3"))
+        for more in (hidden, ["--clip", "box:-9,-9,-9,9,9,9"]):
+            self.assertIn("--fit: all spheres of the selection are hidden or cut away",
+                          self.fail_usage("render", "beads.csv", "-o", "a.png", *more, "--fit", "index 1"))
+
+    def test_an_eye_among_other_spheres_is_told(self):
+        self.write("shell.csv", "x,y,z,r\n0,0,0,1\n0,0,4,1.5\n")
+        done = self.run_bihive("render", "shell.csv", "-o", "a.png", "--fit", "index 0")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("the eye is inside 1 sphere,", done.stderr)
+
+    def test_what_is_refused(self):
+        for option in ("--fit", "--zoom-to", "--look-at"):
+            said = self.fail_usage("render", "beads.csv", "-o", "a.png", option, "kind q")
+            self.assertIn(f'{option} "kind q" selects no sphere: no sphere has kind q; there are a, b, c', said)
+        for words, reason in [
+            (["--fit", "all", "--zoom-to", "all"], "--fit excludes --zoom-to"),
+            (["--fit", "all", "--eye", "0,0,9"], "--eye excludes --fit"),
+            (["--zoom-to", "all", "--look-at", "0,0,9"], "--look-at excludes --zoom-to"),
+            (["--look-at", "kind a", "--view-from", "top"], "excludes --"),
+            (["--look-at", "1,2"], "--look-at: expected three numbers X,Y,Z or a selection"),
+            (["--fit", "all", "--view", "tree"], "--fit is for pictures of spheres"),
+        ]:
+            self.assertIn(reason, self.fail_usage("render", "beads.csv", "-o", "a.png", *words), words)
+        for option in ("--fit", "--zoom-to"):
+            done = self.run_bihive("render", "beads.csv", "-o", "a.png", option, "kind a and")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"bihive: error: {option}: column ", done.stderr)
+
+
+class DirectionsOfSpheres(CameraTest):
+    def test_the_longest_axis_lies_across(self):
+        self.write("rod.csv", "x,y,z,r\n" + "".join(f"0,0,{z},1\n" for z in range(0, 200, 3)))
+        camera = self.camera("rod.csv", "--view-from", "principal", "--size", "200x100", "--projection", "orthographic")
+        self.assertAlmostEqual(camera["shorter_side"], 200 / 0.92 / 2)
+        upright = self.camera("rod.csv", "--view-from", "principal", "--size", "100x200")
+        self.assertEqual([abs(round(x, 9)) for x in upright["up"]], [0, 0, 1])
+        for more in (["--turn", "0,0,30"], ["--zoom", "2"], ["--projection", "orthographic"]):
+            self.render("rod.csv", "--view-from", "principal", "--size", "60x40", *more)
+
+    def test_the_axes_are_those_of_the_spheres_that_are_to_be_seen(self):
+        self.write("two.csv", "x,y,z,r,kind\n0,0,0,1,a\n0,0,9,1,a\n50,0,0,1,b\n90,0,0,1,b\n")
+        across = {"front": [0, 0, 1], "right": [1, 0, 0]}
+        for options, side in [([], None), (["--fit", "kind a"], "right"), (["--zoom-to", "kind a"], "right"),
+                              (["--fit", "kind b"], "front"), (["--select", "kind b", "--hide"], "right")]:
+            camera = self.camera("two.csv", "--view-from", "principal", *options)
+            back = [eye - middle for eye, middle in zip(camera["eye"], camera["look_at"])]
+            length = sum(x * x for x in back) ** 0.5
+            if side:
+                for a, b in zip(back, across[side]):
+                    self.assertAlmostEqual(a / length, b)
+
+    def test_the_best_direction_shows_what_others_hide(self):
+        # A small sphere in a ring of walls that is open towards -x alone.
+        walls = [(x, y, z) for x in (0, 4) for y in (-4, 0, 4) for z in (-4, 0, 4) if (x, y, z) != (0, 0, 0)]
+        self.write("niche.csv", "x,y,z,r,kind\n0,0,0,1,inner\n" + "".join(f"{x},{y},{z},3.4,wall\n" for x, y, z in walls))
+        camera = self.camera("niche.csv", "--view-from", "best:kind inner")
+        back = [eye - middle for eye, middle in zip(camera["eye"], camera["look_at"])]
+        self.assertLess(back[0] / sum(x * x for x in back) ** 0.5, -0.9)
+        hashes = {self.render("niche.csv", "--size", "48x36", "--view-from", "best:kind inner", *more)["picture_hash"]
+                  for more in ([], ["--threads", "1"], ["--engine", "reference"])}
+        self.assertEqual(len(hashes), 1)
+        # Nothing stands before it: the front.
+        self.write("one.csv", "x,y,z,r\n0,0,0,1\n")
+        camera = self.camera("one.csv", "--view-from", "best:all")
+        self.assertGreater(camera["eye"][2] - camera["look_at"][2], 0)
+
+    def test_what_is_refused(self):
+        self.write("nut.csv", "x,y,z,r\n0,0,0,1\n0,0,0,2\n")
+        for view, reason in [("best:index 7", '--view-from "index 7" selects no sphere'), ("best", "principal or best:EXPR"),
+                             ("best:index 0", "--view-from: no direction shows any sphere of the selection"),
+                             ("longest", "expected one of front, back")]:
+            self.assertIn(reason, self.fail_usage("render", "nut.csv", "-o", "a.png", "--view-from", view))
+        self.assertIn(" excludes --",
+                      self.fail_usage("render", "nut.csv", "-o", "a.png", "--view-from", "principal", "--eye", "0,0,9"))
+
+
 class Crop(CameraTest):
     def test_a_part_is_equal_to_the_whole(self):
         for view in ["shaded", "distance", "tree"]:

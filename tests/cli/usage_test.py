@@ -47,9 +47,9 @@ class Help(ProgramTest):
     def test_help_says_every_option_of_the_contract(self):
         contract = {
             "render": "-o --size --crop --recursion --view --engine --max-prims --max-depth --threads --samples --shadows "
-            "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --radius --radius-scale "
+            "--no-shadows --transfer --background --bits --dpi --eye --look-at --up --fov --projection --turn --zoom --view-from --fit --zoom-to --radius --radius-scale "
             "--recenter --frame --json --count --seed",
-            "film": "-o --frames --fps --pictures --hold-first --hold-last --reverse --ping-pong --turntable --camera-keys --colour-range --codec --shard --join --size --samples --json",
+            "film": "-o --frames --fps --pictures --hold-first --hold-last --reverse --ping-pong --turntable --turn-axis --follow --align --fit-frames --camera-keys --colour-range --codec --shard --join --size --samples --json",
             "stats": "--max-prims --max-depth --json --count --radius --seed",
             "trace": "--rays --t --id --any --plane --engine --threads --count --radius --seed",
             "scene": "--count --radius --seed -o",
@@ -75,7 +75,7 @@ class Help(ProgramTest):
             self.assertIn(f"did you mean {near}?", self.fail_usage("render", "demo", "-o", "a.png", word))
         self.assertNotIn("did you mean", self.fail_usage("render", "demo", "-o", "a.png", "--zzzzzzzz"))
 
-    def test_options_of_other_programs(self):
+    def test_what_is_not_drawn(self):
         for command in ("render", "film"):
             for word in ("--cartoon", "--surface", "--arrows=vx,vy,vz", "--bonds"):
                 said = self.fail_usage(command, "demo", "-o", "a.png", word)
@@ -86,10 +86,12 @@ class Help(ProgramTest):
         with open(os.path.join(os.environ["BIHIVE_SOURCE"], "apps/cli/words/foreign_options.h"), encoding="utf-8") as file:
             table = file.read()
         ours = set(re.findall(r"--[a-z-]+", self.succeed("render", "--help-all") + self.succeed("film", "--help-all")))
-        foreign = [name for names in re.findall(r'ForeignOption\{((?:\s*"[^"]*")+)', table) for name in re.findall(r"--[a-z-]+", names)]
+        rows = re.findall(r'ForeignOption\{((?:\s*"[^"]*")+),\s*"([^"]*)", "([^"]*)"\}', table)
+        foreign = {name for names, _, _ in rows for name in re.findall(r"--[a-z-]+", names)}
         self.assertGreater(len(foreign), 30)
-        self.assertEqual(set(foreign) & ours, set())
-        self.assertEqual(set(re.findall(r"did you mean (--[a-z-]+)", table)) - ours, set())
+        self.assertEqual(foreign & ours, set())
+        self.assertEqual({option for _, option, _ in rows if option} - ours, set())
+        self.assertTrue(all(usage.startswith(option) for _, option, usage in rows))
 
 
 class WrongUsage(ProgramTest):
@@ -131,13 +133,21 @@ class WrongUsage(ProgramTest):
             "--projection": ["fisheye", ""],
             "--background": ["reddish", "#fff", "#12345g", "1,2", "0,0,1.5", "0,0,nan"],
             "--eye": ["1,2", "1,2,3,4", "a,b,c", "1,,3", "nan,0,0", "1e39,0,0"],
-            "--look-at": ["here"],
+            "--look-at": ["1,2", "here)"],
             "--up": ["y"],
         }
         for option, values in wrong.items():
             for value in values:
                 with self.subTest(option=option, value=value):
                     self.assertIn(option + ":", self.render(f"{option}={value}"))
+
+    def test_options_of_other_programs(self):
+        for command, option, meant in [("render", "--perspective=none", "--projection perspective"), ("render", "--ortho", "--projection orthographic"),
+                                       ("render", "--zoom-on=all", "--zoom-to EXPR"), ("render", "--orient", "--view-from principal"),
+                                       ("film", "--superpose=all", "--align EXPR"), ("film", "--spin", "--turntable 360")]:
+            said = self.fail_usage(command, "demo", "-o", "a.png", option)
+            self.assertIn(f"did you mean {meant}? see bihive {command} --help", said)
+        self.assertNotIn("--align", self.fail_usage("render", "demo", "-o", "a.png", "--superpose=all"))
 
     def test_negative_numbers_need_no_equals_sign(self):
         self.assertIn("--threads:", self.render("--threads", "-1"))

@@ -40,6 +40,9 @@ class SameBits(ProgramTest):
             (["--style", "illustrative"], {"style": "illustrative"}),
             (["--view-from", "left", "--projection", "orthographic"], {"camera": bh.Orthographic("left")}),
             (["--view-from", "top"], {"camera": "top"}),
+            (["--view-from", "principal", "--zoom-to", "resname 478"], {"camera": bh.Perspective("principal", zoom_to="resname 478")}),
+            (["--view-from", "best:resname 478", "--fit", "chain A"], {"camera": "best:resname 478", "fit": "chain A"}),
+            (["--look-at", "resname 478"], {"look_at": "resname 478"}),
             (
                 ["--eye", "-40,5,60", "--look-at=0,1,-2.5", "--up", "0,0,1", "--fov", "25"],
                 {"camera": bh.Perspective(eye=(-40, 5, 60), look_at=np.array([0, 1, -2.5]), up=[0, 0, 1], fov=25)},

@@ -41,6 +41,14 @@ TEST(DistributedOptions, SomeDependOnTheirValue) {
   options.focus = "chain A";
   EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
   options.focus.reset();
+  options.look_at = Vec3d{1, 2, 3};
+  EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::chunks);
+  options.look_at = "chain A";
+  EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
+  options.look_at.reset();
+  options.view_of = ViewOfSpheres{};
+  EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
+  options.view_of.reset();
   options.input.reading.set_frame(1);
   EXPECT_EQ(reading_by_ranks(options).value(), ReadingByRanks::whole);
   RenderOptions of_film = given({});

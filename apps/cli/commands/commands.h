@@ -62,6 +62,10 @@ Result<Shard> shard_from(const std::string& text);
 /// The frames that give the colours of numbers their range.
 enum class RangeOfColours { first, film, frame };
 
+/// The frames whose spheres a camera that bihive places brings into the picture: the first shown one, all of them, or
+/// in each picture those of its own frame.
+enum class FittedFrames { first, all, each };
+
 /// Milliseconds of each step, summed over the pictures. The steps run concurrently.
 struct FilmTimes {
   double read_ms = 0;   ///< from the file to spheres
@@ -87,6 +91,9 @@ struct FilmOptions {
   PictureOrder order;
   FrameRate rate;
   double turntable_deg = 0;
+  std::string turn_axis;      ///< "x", "y", "z" or "picture"; empty: the world's up
+  std::string follow, align;  ///< selections; empty: none
+  FittedFrames fit_frames = FittedFrames::first;
   std::string camera_keys;  ///< a file; empty: none
   RangeOfColours range_of_colours = RangeOfColours::first;
   std::string codec;  ///< ffmpeg's options for the film's codec, separated by single spaces; empty: by the output's

@@ -53,6 +53,10 @@ void check_film_options(const FilmOptions& options, FilmKind kind) {
     fail_usage("a film in one file has no transparent background", "name the output run/%05d.png");
   if (options.turntable_deg != 0 && !options.camera_keys.empty())
     fail_setting("turntable", " and " + setting_name("camera_keys") + " both move the camera", "leave one of them out");
+  if (!options.turn_axis.empty() && options.turntable_deg == 0)
+    fail_setting("turn_axis", " is for " + setting_name("turntable"), "add " + setting_name("turntable") + " 360");
+  if (!options.follow.empty() && !options.align.empty())
+    fail_setting("follow", " and " + setting_name("align") + " both keep spheres in place", "leave one of them out");
 }
 
 // Whether the pictures wait as files until all are drawn: those of a shard, and those that an encoder is given again on

@@ -80,6 +80,8 @@ ordered_json request_of(const ViewOptions& options) {
   put(request, "seed", input.seed);
   request["reading"] = *json_from_text<ordered_json>(reading_to_json(input.reading));
   if (options.size) request["size"] = {options.size->width_px, options.size->height_px};
+  if (options.view_of)
+    fail_usage("--view-from principal and best are for pictures, not for the window", "name one of " + list_of(kSides));
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
   request["look"] = *json_from_text<ordered_json>(viewer_look_to_json(look_of(options)));
   if (!options.screenshot.empty()) request["screenshot"] = options.screenshot;

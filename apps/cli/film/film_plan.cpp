@@ -96,6 +96,10 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   object["turntable_deg"] = asked.path.turntable_deg;
   object["camera"] =
       asked.path.keys.empty() ? ordered_json() : *json_from_text<ordered_json>(camera_keys_to_json(asked.path.keys));
+  object["turn_axis"] = asked.turn_axis;
+  object["follow"] = asked.follow;
+  object["align"] = asked.align;
+  object["fit_frames"] = asked.fit_frames;
   object["colour_range"] = asked.range_of_colours;
   object["codec"] = asked.codec;
   return object;
@@ -127,6 +131,11 @@ FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   asked.path.turntable_deg = value.at("turntable_deg").get<double>();
   if (!value.at("camera").is_null())
     asked.path.keys = value_or_fail(parse_camera_keys(value.at("camera").dump(), path));
+  asked.turn_axis = value.value("turn_axis", "");
+  asked.follow = value.value("follow", "");
+  asked.align = value.value("align", "");
+  asked.fit_frames = value.value("fit_frames", asked.fit_frames);
+  if (!value_named(kFittedFrames, asked.fit_frames)) throw std::out_of_range("fit_frames");
   asked.range_of_colours = value.at("colour_range").get<std::string>();
   asked.codec = value.at("codec").get<std::string>();
   if (asked.frames.count > 1 && asked.frames.count != asked.pictures) throw std::out_of_range("pictures");
@@ -148,6 +157,46 @@ FilmPlan::Fixed fixed_of(const ordered_json& value) {
   return fixed;
 }
 
+// One for each frame of the film, or none.
+void check_count(std::size_t count, const FilmPlan::Asked& asked) {
+  if (count != 0 && count != static_cast<std::size_t>(asked.frames.count)) throw std::out_of_range("frames");
+}
+
+ordered_json motion_json(const RigidMotion& motion) {
+  return {vector_json(motion.rows[0]), vector_json(motion.rows[1]), vector_json(motion.rows[2]),
+          vector_json(motion.shift)};
+}
+
+// Of numbers that a sphere's centre may have.
+Vec3d point_of(const ordered_json& value) {
+  constexpr double kMost = 3.4e38;
+  const Vec3d point = vector_of(value);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(point[axis]) <= kMost)) throw std::out_of_range("point");
+  return point;
+}
+
+RigidMotion motion_of(const ordered_json& value) {
+  RigidMotion motion;
+  for (std::size_t i = 0; i < 3; ++i) motion.rows[i] = point_of(value.at(i));
+  motion.shift = point_of(value.at(3));
+  return motion;
+}
+
+// Values of films that move: absent in descriptions of others.
+void add_moves(const ordered_json& value, const FilmPlan::Asked& asked, FilmPlan::Fixed& fixed) {
+  if (value.contains("turn_axis")) {
+    fixed.turn_axis = vector_of(value.at("turn_axis"));
+    if (!(std::abs(length(*fixed.turn_axis) - 1) < 1e-6)) throw std::out_of_range("turn_axis");
+  }
+  if (value.contains("shifts"))
+    for (const ordered_json& one : value.at("shifts")) fixed.shifts.push_back(point_of(one));
+  if (value.contains("motions"))
+    for (const ordered_json& one : value.at("motions")) fixed.motions.push_back(motion_of(one));
+  check_count(fixed.shifts.size(), asked);
+  check_count(fixed.motions.size(), asked);
+}
+
 FilmPlan::Made made_of(const ordered_json& value) {
   const std::optional<std::uint64_t> hash = hash_from_text(value.at("hash").get<std::string>());
   if (!hash) throw std::out_of_range("hash");
@@ -163,6 +212,9 @@ std::string film_plan_to_json(const FilmPlan& plan) {
   fixed["range_of_style"] = range_json(plan.fixed.range_of_style);
   fixed["ranges_of_looks"] = ordered_json::array();
   for (const ColourRange& range : plan.fixed.ranges_of_looks) fixed["ranges_of_looks"].push_back(range_json(range));
+  if (plan.fixed.turn_axis) fixed["turn_axis"] = vector_json(*plan.fixed.turn_axis);
+  for (const Vec3d shift : plan.fixed.shifts) fixed["shifts"].push_back(vector_json(shift));
+  for (const RigidMotion& motion : plan.fixed.motions) fixed["motions"].push_back(motion_json(motion));
   ordered_json document = {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
   if (plan.made) document["made"] = {{"bytes", plan.made->bytes}, {"hash", hash_text(plan.made->hash)}};
   return as_text(document, 2) + "\n";
@@ -180,6 +232,7 @@ FilmPlan parse_film_plan(const std::string& text, const std::string& path, const
       FilmPlan plan;
       plan.asked = asked_of(document.at("asked"), path);
       plan.fixed = fixed_of(document.at("fixed"));
+      add_moves(document.at("fixed"), plan.asked, plan.fixed);
       if (document.contains("made")) plan.made = made_of(document.at("made"));
       return plan;
     }

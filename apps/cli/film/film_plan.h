@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/rigid_motion.h"
 #include "bihive/scene/camera_path.h"
 #include "bihive/scene/frame_range.h"
 #include "commands/commands.h"
@@ -24,14 +25,20 @@ struct FilmPlan {
     FrameRate rate;
     std::vector<std::string> options;  ///< of each picture
     CameraPath path;
+    std::string turn_axis;      ///< x, y, z, picture; empty: the world's up
+    std::string follow, align;  ///< selections; empty: none
+    std::string fit_frames = "first";
     std::string range_of_colours;
     std::string codec;
   } asked;
 
   /// Values from the film's first frame.
   struct Fixed {
-    int width_px = 0, height_px = 0;  ///< of a picture in the film
-    Camera camera;                    ///< before it moves
+    int width_px = 0, height_px = 0;   ///< of a picture in the film
+    Camera camera;                     ///< before it moves
+    std::optional<Vec3d> turn_axis;    ///< unset: the picture's vertical
+    std::vector<Vec3d> shifts;         ///< of the camera, in each frame of the film; empty: none
+    std::vector<RigidMotion> motions;  ///< of the spheres, likewise
     ColourRange range_of_style;
     std::vector<ColourRange> ranges_of_looks;
   } fixed;

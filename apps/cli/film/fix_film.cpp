@@ -17,6 +17,8 @@
 #include "bihive/job/picture_options.h"
 #include "bihive/job/prepare_picture.h"
 #include "commands/names.h"
+#include "film/fit_frames.h"
+#include "film/frame_motions.h"
 #include "film/turning_camera.h"
 #include "support/interrupt.h"
 
@@ -87,6 +89,45 @@ std::pair<std::int64_t, Input> first_shown_frame(const FrameSource& source, cons
   return {shown, source.load(shown, style)};
 }
 
+// Unset: the picture's vertical. By default the world's up: of the side from which bihive looks, or of the camera
+// as it was stated.
+std::optional<Vec3d> axis_of_turntable(const Input& input, const Camera& camera, const FilmOptions& options) {
+  const RenderOptions& picture = options.picture;
+  const bool is_fitted = !input.has_camera || picture.view_from || picture.view_of || picture.fit;
+  std::optional<Vec3d> axis;
+  if (options.turn_axis == "x") axis = {1, 0, 0};
+  if (options.turn_axis == "y") axis = {0, 1, 0};
+  if (options.turn_axis == "z") axis = {0, 0, 1};
+  if (options.turn_axis.empty()) {
+    if (picture.up || !is_fitted)
+      axis = normalized(picture.up.value_or(camera.up));
+    else if (!picture.view_of)
+      axis = side_of(picture.view_from.value_or(ViewFrom::front)).up;
+  }
+  if (axis && *axis == camera.up) axis.reset();
+  return axis;
+}
+
+void check_fit_of_frames(const FilmPlan& plan, const FilmOptions& options, const Input& input,
+                         const RenderSettings& settings) {
+  const RenderOptions& picture = options.picture;
+  const std::string value = " " + name_of(kFittedFrames, options.fit_frames);
+  const bool user_places = picture.eye || picture.look_at || picture.up || picture.fit || picture.zoom_to;
+  if (user_places || (input.has_camera && !picture.view_from && !picture.view_of))
+    fail_setting("fit_frames", value + " is for a camera that bihive places, and this one is stated",
+                 "leave one of them out");
+  if (plan.asked.path.moves())
+    fail_setting("fit_frames", value + " is for a camera that does not turn", "leave one of them out");
+  if (settings.view == View::tree)
+    fail_setting("fit_frames", value + " is for pictures of spheres, and " + setting_name("view") + " tree is none",
+                 "leave one of them out");
+  if (options.fit_frames == FittedFrames::each && (picture.view_of || !options.follow.empty()))
+    fail_setting("fit_frames",
+                 value + " moves the camera in each picture, and so does " +
+                     setting_name(picture.view_of ? "view_from" : "follow"),
+                 "leave one of them out");
+}
+
 }  // namespace
 
 FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) {
@@ -123,6 +164,13 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   if (!asked.path.keys.empty() && asked.path.keys.back().picture >= asked.pictures)
     fail_setting("camera_keys", fmt::format(": the last key is for picture {}, and the last picture is {}",
                                             asked.path.keys.back().picture, asked.pictures - 1));
+  asked.turn_axis = options.turn_axis;
+  asked.fit_frames = name_of(kFittedFrames, options.fit_frames);
+  asked.follow = options.follow;
+  asked.align = options.align;
+  if (asked.frames.count == 1 && !(asked.follow + asked.align).empty())
+    fail_setting(asked.align.empty() ? "follow" : "align", " is for a film of several frames, and this one has 1",
+                 "leave it out");
   asked.range_of_colours = name_of(kRangesOfColours, options.range_of_colours);
   asked.codec = options.codec;
   return asked;
@@ -141,9 +189,23 @@ FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, c
   fixed.width_px = drawn.width();
   fixed.height_px = drawn.height();
   fixed.camera = input.scene.camera;
-  const bool user_places = first.eye || first.look_at || first.up;
-  if (plan.asked.path.moves() && !user_places && (!input.has_camera || first.view_from))
+  const bool user_places = first.eye || first.look_at || first.up || first.fit || first.zoom_to;
+  if (plan.asked.path.moves() && !user_places && (!input.has_camera || first.view_from || first.view_of))
     fixed.camera = camera_around(input, fixed.camera, first, settings);
+  if (plan.asked.path.turntable_deg != 0) fixed.turn_axis = axis_of_turntable(input, fixed.camera, options);
+  if (!options.follow.empty()) {
+    fixed.shifts = shifts_of(source, plan, options.follow, style);
+    // The camera is that of the frame that is shown first.
+    const Vec3d of_shown = fixed.shifts[static_cast<std::size_t>(*plan.asked.frames.picture_of(shown))];
+    for (Vec3d& shift : fixed.shifts) shift = shift - of_shown;
+  }
+  if (!options.align.empty()) fixed.motions = motions_of(source, plan, options.align, style);
+  if (options.fit_frames != FittedFrames::first) check_fit_of_frames(plan, options, input, settings);
+  if (options.fit_frames == FittedFrames::all) {
+    FilmPlan begun = plan;
+    begun.fixed = fixed;
+    fixed.camera = camera_over_frames(source, begun, options, style, input, settings);
+  }
   if (options.range_of_colours == RangeOfColours::frame) return fixed;
   fixed.range_of_style = range_of_style(input, first.looks);
   fixed.ranges_of_looks = ranges_of_looks(input, first.looks);

@@ -1,5 +1,7 @@
 #include "film/make_film.h"
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -14,6 +16,7 @@
 #include "bihive/job/messages.h"
 #include "bihive/job/prepare_picture.h"
 #include "bihive/render/draw_labels.h"
+#include "bihive/render/frame_picture.h"
 #include "commands/draw_on_ranks.h"
 #include "commands/draw_picture.h"
 #include "film/picture_queue.h"
@@ -161,6 +164,7 @@ class FilmSteps {
       if (picture->settings.width_px != plan_.fixed.width_px || picture->settings.height_px != plan_.fixed.height_px)
         if (!picture->settings.crop)
           fail({"the pictures of the film differ in size", "", 0, 0, "give one by " + setting_name("size")});
+      tell_of_spheres_outside(*picture);
       check_memory_of(engine, picture->input, picture->options, picture->settings);
       picture->tracer = value_or_fail(
           Tracer::build(picture->input.scene, structure_of(engine), options_.tree, picture->settings.threads));
@@ -168,6 +172,23 @@ class FilmSteps {
       if (!built_.push(std::move(picture))) break;
     }
     built_.end();
+  }
+
+  // Once, of a camera that bihive has placed for the first frame.
+  void tell_of_spheres_outside(const BuiltPicture& picture) {
+    constexpr double kMostOutside = 0.05;  // of all spheres
+    const bool user_places = options_.eye || options_.look_at || options_.up || options_.fit || options_.zoom_to ||
+                             options_.zoom || (picture.input.has_camera && !options_.view_from && !options_.view_of);
+    if (told_of_spheres_outside_ || user_places || plan_.asked.path.moves() || !plan_.asked.follow.empty() ||
+        picture.settings.view == View::tree)
+      return;
+    const Scene& scene = picture.input.scene;
+    const std::int64_t outside = spheres_outside(scene.spheres, scene.camera, picture.settings);
+    if (!(static_cast<double>(outside) > kMostOutside * static_cast<double>(scene.spheres.total_size()))) return;
+    told_of_spheres_outside_ = true;
+    warn(fmt::format("{} of {} spheres are outside of picture {}: {} all brings those of all frames into view",
+                     grouped(outside), grouped(scene.spheres.total_size()), picture.number,
+                     setting_name("fit_frames")));
   }
 
   void trace_all() {
@@ -237,7 +258,8 @@ class FilmSteps {
   PictureQueue<FilmPicture> drawn_{1, CancellableSection::token()};
   std::mutex mutex_;
   std::exception_ptr failure_;
-  FilmTimes times_;  // each thread adds to its own
+  bool told_of_spheres_outside_ = false;  // the thread that builds
+  FilmTimes times_;                       // each thread adds to its own
 };
 
 }  // namespace

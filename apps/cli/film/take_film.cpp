@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "bihive/base/setting_name.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/input.h"
+#include "commands/names.h"
 #include "film/film_plan.h"
 
 namespace bihive::cli {
@@ -38,8 +40,17 @@ void take_film(RenderOptions& options, const FilmPlan& plan) {
     picture = *found;
   }
   if (!is_generated(options.input.input)) options.input.reading.set_frame(plan.frame_of(picture));
-  options.fixed = FixedByFilm{camera_at(asked.path, plan.fixed.camera, picture, asked.pictures),
-                              plan.fixed.range_of_style, plan.fixed.ranges_of_looks};
+  CameraPath path = asked.path;
+  path.axis = plan.fixed.turn_axis;
+  Camera camera = camera_at(path, plan.fixed.camera, picture, asked.pictures);
+  const auto position = static_cast<std::size_t>(picture);
+  if (!plan.fixed.shifts.empty()) {
+    camera.eye = camera.eye + plan.fixed.shifts.at(position);
+    camera.look_at = camera.look_at + plan.fixed.shifts.at(position);
+  }
+  options.fixed = FixedByFilm{camera, plan.fixed.range_of_style, plan.fixed.ranges_of_looks};
+  options.fixed->fits_each = asked.fit_frames == name_of(kFittedFrames, FittedFrames::each);
+  if (!plan.fixed.motions.empty()) options.fixed->motion = plan.fixed.motions.at(position);
 }
 
 }  // namespace bihive::cli

@@ -8,9 +8,11 @@ namespace bihive::cli {
 
 struct ForeignOption {
   std::string_view names;   ///< between blanks, with a blank at both ends
-  std::string_view advice;  ///< a hint as a whole
+  std::string_view option;  ///< ours; empty: there is none
+  std::string_view usage;   ///< of ours
 };
 
+/// What is said of an option that has no counterpart.
 inline constexpr std::string_view kSpheresAlone =
     "bihive draws spheres alone; docs/coming_from.md says what else is possible";
 
@@ -18,19 +20,24 @@ inline constexpr std::array kForeignOptions{
     ForeignOption{
         " --cartoon --ribbon --ribbons --tube --trace --surface --mesh --isosurface --sticks --stick --licorice "
         "--bonds --lines --arrows --vectors ",
-        kSpheresAlone},
-    ForeignOption{" --perspective ", "did you mean --projection perspective?"},
-    ForeignOption{" --orthographic --ortho --orthoscopic ", "did you mean --projection orthographic?"},
-    ForeignOption{" --transparent --transparent-background ", "did you mean --background none?"},
-    ForeignOption{" --transparency --alpha ", "did you mean --opacity? It is 1 minus the transparency"},
-    ForeignOption{" --rotate --rotation ", "did you mean --turn?"},
-    ForeignOption{" --slice --clip-plane --cut ", "did you mean --clip?"},
-    ForeignOption{" --resolution --width --height --res ", "did you mean --size WxH?"},
-    ForeignOption{" --antialiasing --aa --spp ", "did you mean --samples?"},
-    ForeignOption{" --ambient-occlusion --occlusion ", "did you mean --ao?"},
-    ForeignOption{" --depth-cue --depthcue --mist ", "did you mean --fog?"},
-    ForeignOption{" --sphere-scale --scale --radius-factor ", "did you mean --radius-scale?"},
-    ForeignOption{" --spin --rock ", "did you mean --turntable? bihive film has it"},
+        "", ""},
+    ForeignOption{" --perspective ", "--projection", "--projection perspective"},
+    ForeignOption{" --orthographic --ortho --orthoscopic ", "--projection", "--projection orthographic"},
+    ForeignOption{" --center --centre ", "--look-at", "--look-at EXPR"},
+    ForeignOption{" --zoom-on ", "--zoom-to", "--zoom-to EXPR"},
+    ForeignOption{" --orient ", "--view-from", "--view-from principal"},
+    ForeignOption{" --rotate --rotation ", "--turn", "--turn AZ,EL"},
+    ForeignOption{" --superpose --intra-fit ", "--align", "--align EXPR"},
+    ForeignOption{" --track ", "--follow", "--follow EXPR"},
+    ForeignOption{" --spin ", "--turntable", "--turntable 360"},
+    ForeignOption{" --transparent --transparent-background ", "--background", "--background none"},
+    ForeignOption{" --transparency --alpha ", "--opacity", "--opacity, which is 1 minus the transparency"},
+    ForeignOption{" --slice --clip-plane --cut ", "--clip", "--clip"},
+    ForeignOption{" --resolution --width --height --res ", "--size", "--size WxH"},
+    ForeignOption{" --antialiasing --aa --spp ", "--samples", "--samples"},
+    ForeignOption{" --ambient-occlusion --occlusion ", "--ao", "--ao"},
+    ForeignOption{" --depth-cue --depthcue --mist ", "--fog", "--fog"},
+    ForeignOption{" --sphere-scale --scale --radius-factor ", "--radius-scale", "--radius-scale"},
 };
 
 }  // namespace bihive::cli

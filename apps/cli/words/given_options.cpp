@@ -32,7 +32,7 @@ bool is_of_picture(const GivenOption& given) {
       "--turntable", "--camera-keys", "--colour-range", "--codec",    "--shard",
       "--join",      "--hold-first",  "--hold-last",    "--reverse",  "--ping-pong",
       "--json",      "--threads",     "--trajectory",   "-h",         "--help",
-      "--help-all"};
+      "--help-all",  "--turn-axis",   "--follow",       "--align",    "--fit-frames"};
   return given.option != nullptr && std::find(of_film.begin(), of_film.end(), given.name) == of_film.end();
 }
 

@@ -46,8 +46,12 @@ std::string advice_on(const CLI::App* command, const std::vector<std::string>& u
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const std::string& word : unknown) {
     const std::string name = word.substr(0, word.find('='));
-    for (const ForeignOption& foreign : kForeignOptions)
-      if (foreign.names.find(" " + name + " ") != std::string_view::npos) return std::string(foreign.advice);
+    for (const ForeignOption& foreign : kForeignOptions) {
+      if (foreign.names.find(" " + name + " ") == std::string_view::npos) continue;
+      if (foreign.option.empty()) return std::string(kSpheresAlone);
+      if (std::find(names.begin(), names.end(), foreign.option) != names.end())
+        return "did you mean " + std::string(foreign.usage) + "? " + otherwise;
+    }
     const std::string near = name.rfind("--", 0) == 0 ? near_name(name, names) : "";
     if (!near.empty()) return "did you mean " + near + "? " + otherwise;
   }

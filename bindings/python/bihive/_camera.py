@@ -28,20 +28,24 @@ def _words(camera: Any, projection: str) -> list[str]:
 class Orthographic:
     """Parallel rays: equal spheres look equally large at any distance.
 
-    view_from: "front", "back", "left", "right", "top", "bottom" or "iso": the whole set from this side.
-    eye, look_at, up: three numbers each, in world units; instead of view_from.
+    view_from: "front", "back", "left", "right", "top", "bottom" or "iso": the whole set from this side; "principal": its longest
+    axis along the picture's longer side; "best:EXPR": the direction that shows most of a selection.
+    eye, look_at, up: three numbers each, in world units; instead of view_from. look_at may be a selection.
     turn: (azimuth, elevation) or (azimuth, elevation, roll) in degrees. zoom: a factor above 0.
+    fit: a selection that fills the picture, seen from near. zoom_to: one that is magnified until it does.
 
     >>> Orthographic("left", zoom=1.5)
-    Orthographic(view_from='left', eye=None, look_at=None, up=None, turn=None, zoom=1.5)
+    Orthographic(view_from='left', eye=None, look_at=None, up=None, turn=None, zoom=1.5, fit=None, zoom_to=None)
     """
 
     view_from: Optional[str] = None
     eye: Optional[Vector] = None
-    look_at: Optional[Vector] = None
+    look_at: Union[Vector, str, None] = None
     up: Optional[Vector] = None
     turn: Optional[Vector] = None
     zoom: Optional[float] = None
+    fit: Optional[str] = None
+    zoom_to: Optional[str] = None
 
     def words(self) -> list[str]:
         return _words(self, "orthographic")
@@ -61,13 +65,15 @@ class Perspective:
 
     view_from: Optional[str] = None
     eye: Optional[Vector] = None
-    look_at: Optional[Vector] = None
+    look_at: Union[Vector, str, None] = None
     up: Optional[Vector] = None
     turn: Optional[Vector] = None
     zoom: Optional[float] = None
     fov: Optional[float] = None
     aperture: Optional[float] = None
     focus: Union[float, str, None] = None
+    fit: Optional[str] = None
+    zoom_to: Optional[str] = None
 
     def words(self) -> list[str]:
         return _words(self, "perspective")

@@ -31,7 +31,7 @@ _PATIENCE_S = 15
 _LOOK_S = 0.1
 _ENDINGS = [".mp4", ".mov", ".mkv", ".webm"]
 # What `bihive film` alone can do.
-_OF_PROGRAM = ["frames", "pictures", "hold_first", "hold_last", "turntable", "camera_keys", "colour_range", "codec", "shard"]
+_OF_PROGRAM = ["frames", "pictures", "hold_first", "hold_last", "turntable", "turn_axis", "follow", "align", "fit_frames", "camera_keys", "colour_range", "codec", "shard"]
 _FLAGS_OF_PROGRAM = ["reverse", "ping_pong"]
 
 
@@ -296,7 +296,8 @@ def film(
     """Makes a film, and returns the number of its pictures (0: not known, of a file).
 
     source: the path of a file with frames, or of any file with turntable=360: what `bihive film` makes, with all its options
-        (hold_first, hold_last, reverse=True, ping_pong=True, turntable, pictures, camera_keys, colour_range, codec) and
+        (hold_first, hold_last, reverse=True, ping_pong=True, turntable, turn_axis, follow, align, fit_frames, pictures, camera_keys,
+        colour_range, codec) and
         frames="A:B:STEP". Or frames in memory: a Universe or
         AtomGroup of MDAnalysis (whose trajectory runs), a trajectory with atoms=universe.atoms, or any iterable of Spheres or
         atoms, such as a list of ASE's. Camera and ranges of colours are those of the first frame.

@@ -1,13 +1,19 @@
 #include "bihive/job/choose_camera.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <variant>
 
 #include "bihive/base/setting_name.h"
+#include "bihive/job/best_side.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/zoom_camera.h"
 #include "bihive/math/elementary.h"
 #include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
+#include "bihive/scene/principal_side.h"
 
 namespace bihive {
 namespace {
@@ -16,13 +22,19 @@ bool parallel(Vec3d a, Vec3d b) {
   return length(cross(a, b)) <= 1e-9 * length(a) * length(b);
 }
 
+Vec3d target_of(const LookAt& wanted, const Scene& scene, const CameraSelections& selections) {
+  if (const Vec3d* const point = std::get_if<Vec3d>(&wanted)) return *point;
+  return middle_of(scene.spheres.part(selections.visible(scene, "look_at")).bounds());
+}
+
 // A camera that the user places is aimed at the centre of the set, unless the scene or the user states otherwise.
-Camera placed(const Camera& before, const Input& input, const PictureRequest& request, const WholeSet* whole) {
+Camera placed(const Camera& before, const Input& input, const PictureRequest& request,
+              const CameraSelections& selections, const WholeSet* whole) {
   Camera camera = before;
   const SphereSet::Bounds bounds = whole != nullptr ? whole->bounds : RemainingSpheres(input.scene).set().bounds();
   if (request.eye && !input.has_camera) camera.look_at = 0.5 * bounds.lo + 0.5 * bounds.hi;
   camera.eye = request.eye.value_or(camera.eye);
-  camera.look_at = request.look_at.value_or(camera.look_at);
+  if (request.look_at) camera.look_at = target_of(*request.look_at, input.scene, selections);
   const Vec3d view = camera.look_at - camera.eye;
   if (request.up)
     camera.up = *request.up;
@@ -56,31 +68,62 @@ double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& cam
   return *distance;
 }
 
+// The spheres of `fit` or `zoom_to`.
+std::optional<SphereSet> spheres_to_fill(const Scene& scene, const PictureRequest& request,
+                                         const CameraSelections& selections, const RenderSettings& settings) {
+  if (!request.fit && !request.zoom_to) return std::nullopt;
+  const std::string id = request.fit ? "fit" : "zoom_to";
+  if (settings.view == View::tree)
+    fail_setting(id, " is for pictures of spheres, and " + setting_name("view") + " tree is a drawing of the tree",
+                 "leave one of them out");
+  return scene.spheres.part(selections.visible(scene, id));
+}
+
+// The direction of view of a camera that is fitted.
+Side side_for(const Scene& scene, const PictureRequest& request, const RenderSettings& settings,
+              const CameraSelections& selections, const std::optional<SphereSet>& selected) {
+  if (!request.view_of) return side_of(request.view_from.value_or(ViewFrom::front));
+  if (!request.view_of->best_of.empty())
+    return best_side(scene, selections.visible(scene, "view_from"), static_cast<int>(request.threads));
+  const bool is_upright = settings.height_px > settings.width_px;
+  return principal_side(selected ? *selected : RemainingSpheres(scene).set(), is_upright);
+}
+
 }  // namespace
 
 Camera choose_camera(const Input& input, const PictureRequest& request, const RenderSettings& settings,
-                     const WholeSet* whole) {
-  const bool user_places = request.eye || request.look_at || request.up;
+                     const CameraSelections& selections, const WholeSet* whole) {
+  const bool user_places = request.eye || request.look_at || (request.up && !request.fit);
   Camera camera = input.scene.camera;
   camera.fov_deg = request.fov_deg.value_or(camera.fov_deg);
   const Projection projection = request.projection.value_or(camera.projection);
-  const bool fitted = !input.has_camera || request.view_from;
+  const bool fitted = !input.has_camera || request.view_from || request.view_of || request.fit;
+  const std::optional<SphereSet> selected = spheres_to_fill(input.scene, request, selections, settings);
   if (fitted) {
     // The fit uses the direction after the turn. A camera that the user places is turned below.
-    Side side = side_of(request.view_from.value_or(ViewFrom::front));
+    Side side = side_for(input.scene, request, settings, selections, selected);
+    if (request.up && request.fit) {
+      if (parallel(*request.up, side.back)) fail_usage("up is parallel to the direction of view", "give another up");
+      side.up = *request.up;
+    }
     if (request.turn && !user_places) side = turned(side, *request.turn);
     // With the user's own eye point, the angle decides how much is visible.
     if (!request.fov_deg && !user_places) camera.fov_deg = angle_for_wide_pictures(camera.fov_deg, settings);
     const Lens lens{camera.fov_deg, request.eye ? Projection::perspective : projection};
+    // An orthographic picture is the same from any distance; before all spheres nothing is cut open.
+    const bool goes_near = request.fit && projection == Projection::perspective;
     camera = whole != nullptr ? whole->frame(input.scene, side, lens, settings)
+             : goes_near      ? frame_selected(input.scene, *selected, side, lens, settings)
                               : frame_picture(input.scene, side, lens, settings);
+    if (request.fit && !goes_near) camera = zoomed_to(input.scene, *selected, camera, settings);
   } else if (request.fov_deg) {
     camera.projection = Projection::perspective;
   }
-  if (user_places) camera = placed(camera, input, request, whole);
+  if (user_places) camera = placed(camera, input, request, selections, whole);
   refuse_bad(camera, request);
   camera = with_projection(camera, projection);
   if (request.turn && (user_places || !fitted)) camera = turned(camera, *request.turn);
+  if (request.zoom_to) camera = zoomed_to(input.scene, *selected, camera, settings);
   camera = enlarged(camera, request.zoom.value_or(1));
   camera.aperture = request.aperture.value_or(input.scene.camera.aperture);
   camera.focus = request.focus ? focus_of(*request.focus, input.scene.spheres, camera) : input.scene.camera.focus;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "bihive/job/camera_selections.h"
 #include "bihive/job/input.h"
 #include "bihive/job/picture_request.h"
 #include "bihive/scene/camera.h"
@@ -21,8 +22,9 @@ struct WholeSet {
 };
 
 /// The scene's own camera, or one that shows everything, with the user's options. Fails with kBadUsage if the options
-/// contradict each other or the camera sees nothing. `whole`: null if the scene has all spheres.
+/// contradict each other or the camera sees nothing. `selections`: those of the request. `whole`: null if the scene has
+/// all spheres.
 Camera choose_camera(const Input& input, const PictureRequest& request, const RenderSettings& settings,
-                     const WholeSet* whole = nullptr);
+                     const CameraSelections& selections, const WholeSet* whole = nullptr);
 
 }  // namespace bihive

@@ -9,11 +9,13 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/report_text.h"
+#include "bihive/job/selection.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/style.h"
+#include "bihive/select/selection.h"
 #include "bihive/settings/parameter_text.h"
 
 namespace bihive {
@@ -42,6 +44,13 @@ auto into(Member Owner::*member, Parse parse) {
 template <class Member, class Parse>
 Take into(Member PictureRequest::*member, Parse parse) {
   return into<PictureRequest, PictureRequest>(member, parse);
+}
+
+template <class T>
+std::string joined_names(const Names<T>& names) {
+  std::string list;
+  for (const auto& [name, value] : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
 }
 
 template <class T>
@@ -214,17 +223,47 @@ void add_style(Rows& rows) {
     add_parameters(rows, group, kTheme);
 }
 
+// Fails with the faulty column of an expression that is none.
+Status set_selection(const std::string& id, std::optional<std::string>& selection, const std::string& text) {
+  if (const Status status = check_selection(text); !status) fail_selection(id, text, status.error());
+  selection = text;
+  return Done{};
+}
+
+// A side, "principal", or "best:" and a selection.
+Status set_view(PictureRequest& request, const std::string& text) {
+  constexpr std::string_view kBest = "best:";
+  if (text == "principal") {
+    request.view_of = ViewOfSpheres{};
+    return Done{};
+  }
+  if (text.starts_with(kBest)) {
+    const std::string selection = text.substr(kBest.size());
+    if (const Status status = check_selection(selection); !status)
+      fail_selection("view_from", selection, status.error());
+    request.view_of = ViewOfSpheres{selection};
+    return Done{};
+  }
+  const ViewFrom* const side = value_named(kSides, text);
+  if (side == nullptr)
+    return Error{"expected one of " + joined_names(kSides) + ", principal or best:EXPR, found \"" + text + "\"", "", 0,
+                 0, text == "best" ? "name the spheres: best:'chain A'" : ""};
+  request.view_from = *side;
+  return Done{};
+}
+
 void add_camera(Rows& rows) {
   constexpr OptionTheme kTheme = OptionTheme::camera;
   rows.insert(
       rows.end(),
       {{.id = "view_from",
-        .value_name = list_of(kSides),
-        .help = "Show the whole set from this side (files: front)",
+        .value_name = list_of(kSides) + "|principal|best:EXPR",
+        .help = "Show the whole set from this side (files: front); principal: its longest axis along the\n"
+                "picture's longer side; best: the direction that shows most of a selection",
         .theme = kTheme,
         .ranks = kChunks,
         .excludes = {"eye", "look_at", "up"},
-        .take = into(&PictureRequest::view_from, choice(kSides))},
+        .take = set_view},
        {.id = "eye",
         .value_name = "X,Y,Z",
         .help = "Where the camera is",
@@ -233,12 +272,32 @@ void add_camera(Rows& rows) {
         .in_window = false,
         .take = into(&PictureRequest::eye, vector_from)},
        {.id = "look_at",
-        .value_name = "X,Y,Z",
-        .help = "The middle of the picture",
+        .value_name = "X,Y,Z|EXPR",
+        .help = "The middle of the picture: a point, or the centre of the spheres of a selection; the eye stays",
         .theme = kTheme,
         .ranks = kChunks,
         .in_window = false,
-        .take = into(&PictureRequest::look_at, vector_from)},
+        .take = into(&PictureRequest::look_at, look_at_from)},
+       {.id = "fit",
+        .value_name = "EXPR",
+        .help = "These spheres alone are fitted into the picture, as if there were no others: the camera goes\n"
+                "near them, and others may be beside or behind it",
+        .theme = kTheme,
+        .ranks = kWhole,
+        .in_window = false,
+        .excludes = {"eye", "look_at", "zoom_to"},
+        .take = [](PictureRequest& request,
+                   const std::string& text) { return set_selection("fit", request.fit, text); }},
+       {.id = "zoom_to",
+        .value_name = "EXPR",
+        .help = "Magnify until these spheres fill the picture: the camera keeps its direction and distance,\n"
+                "and shows what stands before them",
+        .theme = kTheme,
+        .ranks = kWhole,
+        .in_window = false,
+        .excludes = {"eye", "look_at"},
+        .take = [](PictureRequest& request,
+                   const std::string& text) { return set_selection("zoom_to", request.zoom_to, text); }},
        {.id = "up",
         .value_name = "X,Y,Z",
         .help = "The direction that is up in the picture",

@@ -11,6 +11,7 @@
 #include "bihive/job/engine.h"
 #include "bihive/job/input.h"
 #include "bihive/job/look_options.h"
+#include "bihive/job/rigid_motion.h"
 #include "bihive/job/values.h"
 #include "bihive/math/vec3.h"
 #include "bihive/scene/camera.h"
@@ -39,6 +40,8 @@ struct FixedByFilm {
   Camera camera;  ///< of this picture
   ColourRange range_of_style;
   std::vector<ColourRange> ranges_of_looks;
+  std::optional<RigidMotion> motion{};  ///< of all spheres, before looks
+  bool fits_each = false;               ///< the camera is that of the spheres, in place of `camera`
 };
 
 /// The value of `background` for a transparent picture.
@@ -47,6 +50,11 @@ inline const std::string kNoBackground = "none";
 /// An option as given: "light_points" and "12".
 struct GivenSetting {
   std::string id, value;
+};
+
+/// A direction of view that depends on the spheres.
+struct ViewOfSpheres {
+  std::string best_of;  ///< the direction that shows most of this selection; empty: along the shortest principal axis
 };
 
 /// Unset: the scene's value.
@@ -65,9 +73,13 @@ struct PictureRequest {
   std::optional<std::int64_t> bits;       ///< 8 or 16
   double dots_per_inch = 0;               ///< 0: not stated
   std::optional<PrintSize> print_size;    ///< with `dots_per_inch` the size in `picture`
-  std::optional<Vec3d> eye, look_at, up;
+  std::optional<Vec3d> eye, up;
+  std::optional<LookAt> look_at;       ///< a point, or a selection: the centre of its bounds
+  std::optional<std::string> fit;      ///< a selection that the camera frames in place of the whole set
+  std::optional<std::string> zoom_to;  ///< a selection that the picture magnifies
   std::optional<double> fov_deg;
   std::optional<ViewFrom> view_from;
+  std::optional<ViewOfSpheres> view_of;  ///< in place of view_from
   std::optional<Projection> projection;
   std::optional<Turn> turn;
   std::optional<double> zoom;      ///< above 0

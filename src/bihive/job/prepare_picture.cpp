@@ -54,7 +54,8 @@ std::string filled_title(const std::string& title, const PictureRequest& request
 
 // Applies the user's options to the scene: transfer curve, background, camera, light. Returns the scene's own settings
 // with the user's options.
-RenderSettings apply_options(const PictureRequest& request, Input& input, const WholeSet* whole) {
+RenderSettings apply_options(const PictureRequest& request, Input& input, const CameraSelections& selections,
+                             const WholeSet* whole) {
   Scene& scene = input.scene;
   const Overrides& user = request.picture;
   PictureSettings picture = scene.picture;
@@ -91,7 +92,8 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
                  "give a colour by " + setting_name("background") + ", or choose another view");
   settings.labels.title =
       filled_title(settings.labels.title, request, input, whole != nullptr ? whole->count : scene.spheres.size());
-  scene.camera = request.fixed ? request.fixed->camera : choose_camera(input, request, settings, whole);
+  const bool is_fixed = request.fixed && !request.fixed->fits_each;
+  scene.camera = is_fixed ? request.fixed->camera : choose_camera(input, request, settings, selections, whole);
   if (const Status status = check_picture(settings, scene.camera.aperture); !status)
     fail_usage(status.error().message, status.error().hint);
   apply_look(request.style, input);
@@ -167,8 +169,11 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (const SettingValue* const transfer = request.picture.find("transfer"))
     parameter_named("transfer")->set(picture, *transfer);
   const bool is_of_film = request.fixed.has_value();
+  if (is_of_film && request.fixed->motion)
+    if (const Status status = move_spheres(input.scene.spheres, *request.fixed->motion); !status) fail(status.error());
+  const CameraSelections selections = is_of_film ? CameraSelections() : CameraSelections(request, input.scene.spheres);
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
-  RenderSettings settings = apply_options(request, input, whole);
+  RenderSettings settings = apply_options(request, input, selections, whole);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",
                  "leave out " + setting_name("clip"));
@@ -182,7 +187,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
     if (const std::string shared = shared_colours(input.scene); !shared.empty()) warn(shared);
     if (const std::string unknown = unknown_numbers(input.scene); !unknown.empty()) warn(unknown);
     if (const std::string why = why_empty(input.scene, settings); !why.empty()) warn(why);
-    if (request.eye && !is_of_film)
+    if ((request.eye || request.fit) && !is_of_film)
       if (const std::string dark = dark_insides(input.scene, settings); !dark.empty()) warn(dark);
     for (const std::string& lacking : missing_letters(input.scene, settings.labels)) warn(lacking);
   }

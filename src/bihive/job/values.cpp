@@ -161,6 +161,12 @@ Result<Focus> focus_from(const std::string& text) {
   return unexpected("a number above 0 and up to 3.4e38, \"auto\" or a selection", text);
 }
 
+Result<LookAt> look_at_from(const std::string& text) {
+  if (const Result<Vec3d> point = vector_from(text)) return LookAt(*point);
+  if (!three_numbers(text) && check_selection(text)) return LookAt(text);
+  return unexpected("three numbers X,Y,Z or a selection", text);
+}
+
 Result<std::int64_t> bits_from(const std::string& text) {
   const std::optional<std::int64_t> bits = whole<std::int64_t>(text);
   if (bits && (*bits == 8 || *bits == 16)) return *bits;

@@ -56,6 +56,10 @@ Result<std::int64_t> samples_from(const std::string& text, std::int64_t most);
 using Focus = std::variant<double, std::string>;
 Result<Focus> focus_from(const std::string& text);
 
+/// "X,Y,Z", or the text of a selection.
+using LookAt = std::variant<Vec3d, std::string>;
+Result<LookAt> look_at_from(const std::string& text);
+
 /// 8 or 16.
 Result<std::int64_t> bits_from(const std::string& text);
 

@@ -75,7 +75,9 @@ Camera camera_at(const CameraPath& path, const Camera& base, std::int64_t pictur
     });
   };
   const double share = static_cast<double>(picture) / static_cast<double>(pictures);
-  const Turn turn{angle(&Turn::azimuth) + path.turntable_deg * share, angle(&Turn::elevation), angle(&Turn::roll)};
+  const double turntable_deg = path.turntable_deg * share;
+  if (path.axis && turntable_deg != 0) camera = turned_about(camera, *path.axis, turntable_deg);
+  const Turn turn{angle(&Turn::azimuth) + (path.axis ? 0 : turntable_deg), angle(&Turn::elevation), angle(&Turn::roll)};
   camera = turned(camera, turn);
   return enlarged(camera, track(path.keys, picture, 1, [](const CameraKey& key) { return key.zoom; }));
 }

@@ -25,6 +25,8 @@ struct CameraKey {
 struct CameraPath {
   double turntable_deg = 0;     ///< rotation of the camera to the right around the scene, over the whole animation
   std::vector<CameraKey> keys;  ///< their pictures rise
+  /// The turntable's axis through look_at, a unit vector in the world; unset: the picture's vertical.
+  std::optional<Vec3d> axis{};
 
   bool moves() const { return turntable_deg != 0 || !keys.empty(); }
 };

@@ -131,6 +131,15 @@ std::shared_ptr<const CutSet> cut_set_of(const Scene& scene) {
   return nullptr;
 }
 
+std::vector<std::int64_t> remaining_ids(const Scene& scene, const std::vector<std::int64_t>& ids) {
+  const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
+  if (cuts == nullptr) return ids;
+  std::vector<std::int64_t> remaining;
+  for (const std::int64_t id : ids)
+    if (cuts->remainder(id) != Remainder::nothing) remaining.push_back(id);
+  return remaining;
+}
+
 RemainingSpheres::RemainingSpheres(const Scene& scene) : whole_(&scene.spheres) {
   const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   if (cuts == nullptr) return;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/geometry/clip.h"
@@ -29,6 +30,9 @@ bool has_clips(const Scene& scene);
 
 /// The cut spheres of the scene, whose set must outlive it; null if the clips neither cut nor remove any.
 std::shared_ptr<const CutSet> cut_set_of(const Scene& scene);
+
+/// Those of these stored ids whose spheres are not removed entirely.
+std::vector<std::int64_t> remaining_ids(const Scene& scene, const std::vector<std::int64_t>& ids);
 
 /// The spheres that are not removed entirely: for cameras. Cut ones are there with their full radii.
 class RemainingSpheres {

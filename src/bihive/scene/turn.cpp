@@ -35,4 +35,16 @@ Camera turned(const Camera& camera, const Turn& turn) {
   return moved;
 }
 
+Camera turned_about(const Camera& camera, Vec3d axis, double degrees) {
+  const SineCosine angle = sine_cosine_deg(degrees);
+  const auto turned = [&](Vec3d v) {
+    const Vec3d along = dot(v, axis) * axis;
+    return along + angle.cosine * (v - along) + angle.sine * cross(axis, v);
+  };
+  Camera moved = camera;
+  moved.eye = camera.look_at + turned(camera.eye - camera.look_at);
+  moved.up = turned(camera.up);
+  return moved;
+}
+
 }  // namespace bihive

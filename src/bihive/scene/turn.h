@@ -17,4 +17,7 @@ struct Turn {
 Side turned(const Side& side, const Turn& turn);
 Camera turned(const Camera& camera, const Turn& turn);
 
+/// Turns eye and `up` about an axis through look_at, a unit vector in the world: counter-clockwise, seen from its tip.
+Camera turned_about(const Camera& camera, Vec3d axis, double degrees);
+
 }  // namespace bihive

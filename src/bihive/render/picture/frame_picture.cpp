@@ -89,6 +89,15 @@ std::int64_t spheres_around_eye(const SphereSet& spheres, const Camera& camera, 
   return count;
 }
 
+std::int64_t spheres_outside(const SphereSet& spheres, const Camera& camera, const RenderSettings& settings) {
+  const AreaInView in_view(camera, settings, {0, 0, double(settings.width_px), double(settings.height_px)});
+  std::int64_t count = 0;
+  for_each_sphere(spheres, [&](std::int64_t, Vec3d centre, double radius) {
+    if (!in_view.meets(centre, radius)) ++count;
+  });
+  return count;
+}
+
 namespace {
 
 // The labels that `covers(area)` names get a side each: title above, legend right, scale bar below, and the axes, which
@@ -128,6 +137,19 @@ Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, con
   };
   const auto covers = [&](const Camera& camera, const CanvasArea& area) {
     return covers_spheres(spheres, camera, settings, area);
+  };
+  return frame_beside_labels(scene, settings, framed, covers);
+}
+
+Camera frame_selected(const Scene& scene, const SphereSet& selected, const Side& side, const Lens& lens,
+                      const RenderSettings& settings) {
+  RenderSettings without_cell = settings;
+  without_cell.cell_lines.reset();
+  const auto framed = [&](const Insets& insets) {
+    return frame_spheres(selected, side, lens, settings.width_px, settings.height_px, insets);
+  };
+  const auto covers = [&](const Camera& camera, const CanvasArea& area) {
+    return covers_spheres(selected, camera, without_cell, area);
   };
   return frame_beside_labels(scene, settings, framed, covers);
 }

@@ -1,0 +1,28 @@
+// Films that keep selected spheres in place: how they move from frame to frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bihive/job/rigid_motion.h"
+#include "bihive/scene/style.h"
+#include "film/film_plan.h"
+#include "film/frame_source.h"
+
+namespace bihive::cli {
+
+/// Where a camera that follows the spheres of a selection goes in each frame of the film, from that of the first one:
+/// as far as they have moved on average. With a periodic cell each moves from a frame to the next by the shortest of
+/// the ways to an image, and where the first of them comes in at another side of the cell, the camera goes there too. A
+/// frame that selects none repeats the frame before; where other spheres are selected than in the frame before, their
+/// mean moves. Reads all frames. Fails with kBadUsage on a wrong selection, or one that selects nothing in the first
+/// frame.
+std::vector<Vec3d> shifts_of(const FrameSource& source, const FilmPlan& plan, const std::string& selection,
+                             const Style& style);
+
+/// The motions that lay each frame over the first one, by the spheres of a selection. Reads all frames. Fails with
+/// kBadUsage where it selects fewer than three, or another number of spheres than in the first frame.
+std::vector<RigidMotion> motions_of(const FrameSource& source, const FilmPlan& plan, const std::string& selection,
+                                    const Style& style);
+
+}  // namespace bihive::cli
