@@ -75,6 +75,20 @@ if(NOT BIHIVE_OPENEXR STREQUAL "OFF")
   endif()
 endif()
 
+# TIFF files for print, the same.
+set(BIHIVE_TIFF AUTO CACHE STRING "Write TIFF: ON, OFF, or AUTO: where libtiff is installed")
+set(BIHIVE_HAS_TIFF OFF)
+if(NOT BIHIVE_TIFF STREQUAL "OFF")
+  # Handlers of errors for one file alone.
+  find_package(TIFF 4.5 QUIET)
+  if(TIFF_FOUND)
+    set(BIHIVE_HAS_TIFF ON)
+    list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<LINK_ONLY:TIFF::TIFF>)
+  elseif(NOT BIHIVE_TIFF STREQUAL "AUTO")
+    bihive_missing("libtiff" libtiff-dev)
+  endif()
+endif()
+
 # HDF5 files are read by libhdf5, which is loaded when a file needs it: only its header is used here, and the name under
 # which the library is found later.
 set(BIHIVE_HDF5 AUTO CACHE STRING "Read HDF5: ON, OFF, or AUTO: where it is installed")

@@ -209,7 +209,7 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
   add_input<PictureRequest>(command, picture);
   command.get_option("INPUT")->required(false);
   add_path(command, "-o,--output", picture.output,
-           "The film: .mp4, .mov, .mkv or .webm by the program ffmpeg; .y4m; or PNG files:\nrun/%05d.png");
+           "The film: .mp4, .mov, .mkv, .webm, .gif or .apng by the program ffmpeg; .y4m; or\nPNG files: run/%05d.png");
   add_value(command, "--frames", options.frames, "A:B:STEP",
             "Every STEP-th frame from A to before B (all); negative: from the end", frame_range_from_text);
   add_value(command, "--fps", options.rate, "N", "Pictures per second (25), also 29.97 or 30000/1001", frame_rate_from);

@@ -15,7 +15,7 @@
 #include "bihive/job/messages.h"
 #include "bihive/job/picture_options.h"
 #include "bihive/job/prepare_picture.h"
-#include "bihive/render/draw_labels.h"
+#include "bihive/render/finished_pixels.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
@@ -252,9 +252,7 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
 
     // The picture.
     const Rendered rendered = value_or_fail(render(input.scene, own ? *own : *scene->tracer, settings));
-    const Transfer curve = settings.view == View::shaded ? input.scene.picture.transfer : Transfer::none;
-    PngPixels pixels = png_pixels_from_film(rendered.film, curve, 8, threads);
-    draw_labels(pixels, input.scene, settings);
+    const PngPixels pixels = finished_pixels(rendered.film, input.scene, settings, 8);
     write_rgba(pixels, rgba);
     return kDone;
   });

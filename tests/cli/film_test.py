@@ -551,6 +551,31 @@ class Encoded(FilmTest):
         self.film("run.xyz", "-o", "run/%d.png", *SMALL)
         self.assertEqual(self.decoded("run.mkv"), self.pixels_of_sequence("run"))
 
+    @unittest.skipUnless(HAS_FFMPEG, "there is no ffmpeg here")
+    def test_animations(self):
+        self.film("run.xyz", "-o", "run/%d.png", *SMALL)
+        expected = self.pixels_of_sequence("run")
+        for name in ("run.apng", "run.gif"):
+            report = self.film("run.xyz", "-o", name, *SMALL, "--fps", "10")
+            self.assertEqual((report["drawn"], report["kept"]), (6, 0))
+            shown = json.loads(subprocess.run(
+                ["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", self.path(name)],
+                stdout=subprocess.PIPE, check=True).stdout)["streams"][0]
+            self.assertEqual((shown["width"], shown["height"], shown["nb_read_frames"]), (48, 32, "6"))
+            self.assertEqual(shown["avg_frame_rate"], "10/1")
+            self.assertEqual(self.film("run.xyz", "-o", name, *SMALL, "--fps", "10")["kept"], 6)
+            self.assertNotIn(name + ".part", self.names())
+        self.assertEqual(self.decoded("run.apng"), expected, "no loss")
+        # 256 colours are near those of the pictures, and the file loops.
+        found = self.decoded("run.gif")
+        self.assertLess(sum(abs(a - b) for a, b in zip(found, expected)) / len(expected), 8)
+        self.assertIn(b"NETSCAPE2.0", self.read("run.gif"))
+
+    def test_animations_have_no_codec_and_a_gif_no_high_rate(self):
+        self.assertIn("--codec is for .mp4, .mov, .mkv and .webm", self.fail_usage("film", "run.xyz", "-o", "x.gif", "--codec", "-c:v gif"))
+        if HAS_FFMPEG:
+            self.assertIn("a GIF shows at most 50 pictures per second", self.fail_usage("film", "run.xyz", "-o", "x.gif", *SMALL, "--fps", "60"))
+
     def test_a_missing_ffmpeg_is_said_before_any_work(self):
         os.mkdir(self.path("empty"))
         said = self.fail_with(3, "film", "run.xyz", "-o", "run.mp4", env={**os.environ, "PATH": self.path("empty")})
@@ -709,7 +734,7 @@ class WrongOptions(FilmTest):
                      ["--background", "none"], ["--frame", "1"], ["--layers", "depth"], ["--join"], ["--film", "x"],
                      ["--colour-range", "x"], ["--turntable", "9", "--camera-keys", "k"]):
             self.fail_usage(*film, *more)
-        for output in ("x.gif", "x", "x.png", "%d%d.png", "%s.png", "a%d/b.png", "%5d.png", "-"):
+        for output in ("x.avi", "x", "x.png", "%d%d.png", "%s.png", "a%d/b.png", "%5d.png", "-"):
             self.fail_usage("film", "run.xyz", "-o", output)
         self.fail_usage("film", "-o", "x.y4m")
         self.fail_usage("film", "run.xyz")

@@ -22,7 +22,7 @@ class Labels(ProgramTest):
 
     def test_each_label_changes_its_corner_alone(self):
         # A camera of one's own, so that labels get no room.
-        look = ["--colour-by", "charge", "--projection", "orthographic", "--eye", "0,0,20", "--look-at", "0,0,0"]
+        look = ["--colour-by", "charge", "--projection", "orthographic", "--eye", "0,0,20", "--look-at", "0,0,0", "--fog", "0"]
         plain = self.picture(*look)
         corners = {"--title=Title": (80, 0, 160, 25), "--axes": (0, 80, 90, 160), "--scale-bar": (150, 120, 240, 160),
                    "--legend": (150, 0, 240, 160)}

@@ -37,7 +37,7 @@ class Table(ProgramTest):
             "colour": lambda row: "#204060",
         }
         # What these spheres cannot show, and a curve that the text of a colour depends on.
-        left_out = ("legend", "length_unit", "cell", "cell_width", "cell_colour", "transfer")
+        left_out = ("legend", "legend_title", "length_unit", "matte", "eye_distance", "cell", "cell_width", "cell_colour", "transfer")
         size = ["--size", "48x36", "--samples", "1", "--projection", "orthographic"]
         with open(self.path("spheres.csv"), "w") as file:
             file.write("x,y,z,r\n0,0,0,1\n1,0,-3,1\n0,1,1,0.5\n")

@@ -110,5 +110,55 @@ class File(PublishTest):
         self.assert_one_error_line(done.stderr)
 
 
+class Matte(PublishTest):
+    def assert_shows(self, page, numbers, *options, delta=0):
+        """Mixed as screens do it, over its page the picture is the one with this background."""
+        most = 2 ** (16 if "16" in options else 8) - 1
+        transparent = self.picture("demo", *SMALL, "--samples", "16", *options, "--background", "none", "--matte", page)
+        opaque = self.picture("demo", *SMALL, "--samples", "16", *options, "--background", page)
+        for seen, expected in zip(sum(transparent, []), sum(opaque, [])):
+            mixed = [(seen[3] * number + (most - seen[3]) * behind) / most for number, behind in zip(seen, numbers)]
+            for number, whole in zip(mixed, expected):
+                self.assertLessEqual(abs(int(number + 0.5) - whole), delta, (seen, mixed, expected))
+        return transparent
+
+    def test_over_its_page_it_is_the_picture_with_this_background(self):
+        on_white = self.assert_shows("white", (255, 255, 255), "--style", "plain")
+        self.assert_shows("black", (0, 0, 0), "--style", "plain")
+        self.assert_shows("#304060", (0x30, 0x40, 0x60), "--fog", "0.7")
+        self.assert_shows("#304060", (0x3030, 0x4040, 0x6060), "--style", "plain", "--bits", "16", delta=1)
+        self.assertEqual(on_white[0][0], (255, 255, 255, 0))
+        without = self.picture("demo", *SMALL, "--samples", "16", "--style", "plain", "--background", "none")
+        self.assertNotEqual(on_white, without)
+
+    def test_letters_and_scene_files(self):
+        self.assert_shows("#304060", (0x30, 0x40, 0x60), "--style", "plain", "--title", "A title", delta=1)
+        self.write("s.json", '{"bihive_scene": 2, "spheres": [[0, 0, 0, 1]], "picture": {"transparent": true, "matte": "#304060"}}')
+        self.assertEqual(self.picture("s.json", *SMALL)[0][0], (0x30, 0x40, 0x60, 0))
+        self.assertEqual(self.picture("s.json", *SMALL, "--matte", "white")[0][0], (255, 255, 255, 0))
+        self.assertEqual(self.picture("s.json", *SMALL, "--background", "white")[0][0], (255, 255, 255))
+
+    def test_what_cannot_be(self):
+        message = self.fail_usage("render", "demo", "-o", "b.png", "--matte", "white")
+        self.assertIn("--matte is the colour behind a transparent picture, and this one has a background", message)
+        self.assertIn("colour", self.fail_usage("render", "demo", "-o", "b.png", "--background", "none", "--matte", "whiet"))
+        self.fail_usage("render", "demo", "-o", "b.exr", "--background", "none", "--matte", "white")
+
+
+class Srgb(PublishTest):
+    def chunks(self, *options):
+        self.picture(*options, *SMALL, "--samples", "1")
+        return {name: data for name, data in png_chunks(self.read("a.png")) if name in ("sRGB", "gAMA")}
+
+    def test_pictures_for_the_eye_say_that_they_are_srgb(self):
+        self.assertEqual(self.chunks("demo"), {"sRGB": b"\0", "gAMA": struct.pack(">I", 45455)})
+        self.assertEqual(self.chunks("demo", "--background", "none", "--bits", "16").keys(), {"sRGB", "gAMA"})
+        self.assertEqual(self.chunks("demo", "--view", "normal"), {}, "numbers")
+        self.assertEqual(self.chunks("demo", "--view", "id"), {}, "numbers")
+        self.assertEqual(self.chunks("scenario1", "--count", "9"), {}, "pixels of the thesis are light")
+        self.succeed("film", "demo", "-o", "run/%d.png", "--turntable", "90", "--pictures", "2", *SMALL, "--samples", "1")
+        self.assertIn("sRGB", [name for name, _ in png_chunks(self.read("run/0.png"))])
+
+
 if __name__ == "__main__":
     main()

@@ -250,6 +250,48 @@ TEST(DrawLabels, letters_are_dark_on_light_and_light_on_dark_backgrounds) {
   EXPECT_LT(darkest, 60) << "the seam has the background's colour";
 }
 
+TEST(Legend, names_of_selections_are_a_key_of_their_own) {
+  const Scene scene = row({{"all", {by("charge:magma"), SetLegendName{"Charge (e)"}}},
+                           {"part a", {SetLegendName{"ligand"}, SetColour{std::string("#ff0000")}}},
+                           {"x = 3", {SetColour{std::string("#0000ff")}, SetLegendName{"ion"}}},
+                           {"x = 4", {SetColour{std::string("#ff0000")}, SetLegendName{"ligand"}}}});
+  const std::vector<LegendKey> keys = legend_of(scene);
+  ASSERT_EQ(keys.size(), 2u);
+  EXPECT_EQ(keys[0].title, "Charge (e)");
+  EXPECT_EQ(keys[1].title, "");
+  ASSERT_EQ(keys[1].entries.size(), 2u) << "one name with one colour stands once";
+  EXPECT_EQ(keys[1].entries[0].name, "ligand");
+  EXPECT_EQ(keys[1].entries[1].name, "ion");
+  EXPECT_NEAR(keys[1].entries[1].colour.z, 1, 1e-9);
+  EXPECT_EQ(legend_of(scene, {.legend_title = "e"})[0].title, "e") << "the last key with a title has the title";
+  EXPECT_EQ(equal_colours(scene), "");
+}
+
+TEST(Legend, a_title_stands_above_names_alone) {
+  const Scene scene = row({{"part a", {SetColour{std::string("red")}, SetLegendName{"ligand"}}}});
+  const std::vector<LegendKey> keys = legend_of(scene, {.legend_title = "Parts"});
+  ASSERT_FALSE(keys.empty());
+  EXPECT_EQ(keys.back().entries.front().name, "ligand");
+}
+
+TEST(Legend, colours_that_look_alike_are_told) {
+  const auto two = [](const std::string& a, const std::string& b) {
+    return equal_colours(
+        row({{"part a", {SetColour{a}, SetLegendName{"A"}}}, {"part b", {SetColour{b}, SetLegendName{"B"}}}}));
+  };
+  EXPECT_EQ(two("red", "red"), "the legend has one colour for A and B");
+  EXPECT_EQ(two("#e69f00", "orange"), "the legend has nearly one colour for A and B");
+  EXPECT_EQ(two("red", "orange"), "");
+}
+
+TEST(Legend, a_name_needs_one_colour) {
+  Result<LoadedScene> loaded = load_scene(kRow, "a.csv");
+  const auto counts =
+      apply_looks(loaded->scene, {{"part a", {SetColour{std::string("red")}}}, {"all", {SetLegendName{"all"}}}});
+  ASSERT_FALSE(counts.ok());
+  EXPECT_THAT(counts.error().message, HasSubstr("several"));
+}
+
 TEST(DrawLabels, what_a_picture_cannot_have_is_refused) {
   Scene scene = row({{"all", {by("charge")}}});
   RenderSettings settings = sized(300, 200, {.legend = true, .scale_bar = true});

@@ -63,7 +63,54 @@ TEST(PngPixels, sixteen_bits_are_the_nearest_and_the_higher_byte_comes_first) {
 TEST(PngPixels, the_bytes_of_a_plain_picture_do_not_change) {
   const Film film = film_of(kLight);
   const Image image = image_from_film(film, Transfer::srgb);
-  EXPECT_EQ(*encode_png(png_pixels_from_film(film, Transfer::srgb, 8), {{"a", "b"}}), *encode_png(image, {{"a", "b"}}));
+  PngPixels plain = png_pixels_from_film(film, Transfer::srgb, 8);
+  plain.is_srgb = false;  // as of an image, of which nothing is said
+  EXPECT_EQ(*encode_png(plain, {{"a", "b"}}), *encode_png(image, {{"a", "b"}}));
+}
+
+// Laid over the page as programs do it, with a rounding to the nearest number.
+TEST(MattedPixels, over_their_page_they_are_the_pixels_of_the_film_on_it) {
+  Film film;
+  film.resize(7, 5, /*with_coverage=*/true);
+  for (std::size_t i = 0; i < film.radiance.size(); ++i) {
+    const auto k = static_cast<float>(i);
+    film.radiance[i] = {k / 20, 0.6F - k / 60, i % 3 == 0 ? 2.0F : 0.0F};
+    film.coverage[i] = static_cast<float>(i % 6) / 5;
+  }
+  for (const Vec3d page : {Vec3d{0, 0, 0}, Vec3d{1, 1, 1}, Vec3d{0.03, 0.4, 0.9}})
+    for (const int bits : {8, 16}) {
+      const PngPixels matted = matted_pixels_from_film(film, Transfer::srgb, bits, page);
+      Film opaque(7, 5);
+      for (std::size_t i = 0; i < film.radiance.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+          opaque.radiance[i][channel] =
+              static_cast<float>(double(film.coverage[i]) * double(film.radiance[i][channel]) +
+                                 (1 - double(film.coverage[i])) * page[channel]);
+      const PngPixels wanted = png_pixels_from_film(opaque, Transfer::srgb, bits);
+      Film of_page(1, 1);
+      of_page.radiance[0] = to_float(page);
+      const PngPixels behind = png_pixels_from_film(of_page, Transfer::srgb, bits);
+      const auto number = [bits](const PngPixels& pixels, std::size_t at) {
+        return bits == 8 ? double(pixels.bytes[at]) : 256.0 * pixels.bytes[2 * at] + pixels.bytes[2 * at + 1];
+      };
+      const double most = bits == 8 ? 255 : 65535;
+      for (std::size_t i = 0; i < film.radiance.size(); ++i) {
+        const double opacity = number(matted, 4 * i + 3);
+        EXPECT_GE(opacity, std::floor(double(film.coverage[i]) * most));
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const double mixed =
+              (opacity * number(matted, 4 * i + channel) + (most - opacity) * number(behind, channel)) / most;
+          EXPECT_EQ(std::floor(mixed + 0.5), number(wanted, 3 * i + channel)) << i << " of " << bits;
+        }
+      }
+    }
+}
+
+TEST(PngPixels, the_curve_says_whether_they_are_srgb) {
+  const Film film(2, 2);
+  EXPECT_TRUE(png_pixels_from_film(film, Transfer::srgb, 8).is_srgb);
+  EXPECT_TRUE(png_pixels_from_film(film, Transfer::srgb, 16).is_srgb);
+  EXPECT_FALSE(png_pixels_from_film(film, Transfer::none, 8).is_srgb);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ const value_words: Record<string, { hint: string; list: string; mode: string }> 
   'radius-scale': { hint: '0.5', list: '', mode: 'decimal' },
   outline: { hint: '0 to 16', list: '', mode: 'decimal' },
   crease: { hint: 'chain', list: 'colour_attributes', mode: 'text' },
+  'legend-name': { hint: 'ligand', list: '', mode: 'text' },
   clip: { hint: 'plane:0,0,1,0', list: '', mode: 'text' },
 };
 const is_complete = ({ action, value }: LookRow) => !(action in value_words) || value !== '';

@@ -24,6 +24,7 @@ export interface PictureSettings {
   tone: 'none' | 'soft' | 'filmic';
   title: string;
   legend: boolean;
+  legend_title: string;
   axes: boolean;
   scale_bar: boolean;
   length_unit: string | null;

@@ -47,6 +47,8 @@ void check_film_options(const FilmOptions& options, FilmKind kind) {
   if (!options.join && picture.input.input.empty()) fail_usage("bihive film needs an INPUT", "see bihive film --help");
   if (!options.codec.empty() && kind != FilmKind::encoded)
     fail_setting("codec", " is for films that ffmpeg encodes", "let the output end in .mp4, .mov, .mkv or .webm");
+  if (!options.codec.empty() && is_animation(picture.output))
+    fail_setting("codec", " is for .mp4, .mov, .mkv and .webm: GIF and APNG have one codec each", "leave it out");
   if (kind != FilmKind::pictures && picture.bits.value_or(8) != 8)
     fail_setting("bits", " 16 is for a sequence of pictures", "name the output run/%05d.png");
   if (kind != FilmKind::pictures && picture.background == kNoBackground)

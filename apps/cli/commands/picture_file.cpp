@@ -8,10 +8,11 @@
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
+#include "bihive/image/tiff.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/picture_record.h"
 #include "bihive/job/report_text.h"
-#include "bihive/render/draw_labels.h"
+#include "bihive/render/finished_pixels.h"
 #include "commands/commands.h"
 #include "support/interrupt.h"
 #include "support/outputs.h"
@@ -100,6 +101,50 @@ class PngFileOfRows : public PictureFile {
   Sha256 sha_;  // of all rows
 };
 
+class TiffFileOfRows : public PictureFile {
+ public:
+  explicit TiffFileOfRows(PictureToWrite picture)
+      : picture_(std::move(picture)),
+        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()) {}
+
+  Status add(const Film& film, const Tile& pixels) override {
+    const PngPixels rows = png_rows(picture_.options, picture_.scene, picture_.settings, film, pixels);
+    hash_.add(rows.bytes);
+    if (!writer_)
+      if (Status status = begin(rows); !status) return status;
+    return writer_->add(rows);
+  }
+  Status finish() override {
+    const WritingSection section;
+    return writer_->finish();
+  }
+  std::optional<std::uint64_t> hash() const override { return hash_.value(); }
+  double bytes_of_pixel() const override {
+    return (picture_.settings.transparent ? 4 : 3) * (static_cast<double>(picture_.options.bits.value_or(8)) / 8.0);
+  }
+
+ private:
+  Status begin(const PngPixels& rows) {
+    const Tile drawn = drawn_pixels(picture_.settings);
+    TiffForm form{drawn.width(), drawn.height(), rows.channels, rows.bits, picture_.options.dots_per_inch, "", ""};
+    if (picture_.options.metadata)
+      for (const auto& [name, value] : picture_.text) {
+        if (name == "Software") form.software = value;
+        if (name == "Settings") form.description = value;
+      }
+    Result<TiffWriter> writer = TiffWriter::begin(picture_.options.output, form);
+    if (!writer) return writer.error();
+    writer_.emplace(std::move(*writer));
+    removed_.emplace(writer_->path_aside());
+    return Done{};
+  }
+
+  PictureToWrite picture_;
+  PictureHash hash_;
+  std::optional<TiffWriter> writer_;
+  std::optional<RemovedWhenEnded> removed_;
+};
+
 class ExrFileOfRows : public PictureFile {
  public:
   explicit ExrFileOfRows(PictureToWrite picture) : picture_(std::move(picture)) {}
@@ -138,32 +183,42 @@ class ExrFileOfRows : public PictureFile {
   std::optional<RemovedWhenEnded> removed_;
 };
 
+bool is_srgb(const PictureToWrite& picture) {
+  return picture.settings.view == View::shaded && picture.scene.picture.transfer == Transfer::srgb;
+}
+
 }  // namespace
 
 PngPixels png_rows(const PictureRequest& options, const Scene& scene, const RenderSettings& settings, const Film& film,
                    const Tile& pixels) {
-  const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
-  PngPixels rows = png_pixels_from_film(film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
-  draw_labels(rows, scene, settings_of(settings, pixels));
-  return rows;
+  return finished_pixels(film, scene, settings_of(settings, pixels), static_cast<int>(options.bits.value_or(8)));
 }
 
 void check_picture_name(const std::string& output) {
-  constexpr std::array kOthers{".jpg", ".jpeg", ".jpe",  ".jp2",  ".jxl",  ".ppm", ".pgm", ".pbm", ".pnm", ".pam",
-                               ".bmp", ".gif",  ".tif",  ".tga",  ".tiff", ".hdr", ".pfm", ".svg", ".pdf", ".eps",
-                               ".ps",  ".webp", ".avif", ".heic", ".psd",  ".ico", ".xpm", ".mp4", ".webm"};
+  constexpr std::array kOthers{".jpg", ".jpeg", ".jpe", ".jp2",  ".jxl", ".ppm", ".pgm",  ".pbm",
+                               ".pnm", ".pam",  ".bmp", ".tga",  ".hdr", ".pfm", ".svg",  ".pdf",
+                               ".eps", ".ps",   ".psd", ".webp", ".ico", ".xpm", ".avif", ".heic"};
+  constexpr std::array kFilms{".mp4", ".webm", ".gif", ".apng"};
   const std::string ending = ending_of(output);
-  if (std::find(kOthers.begin(), kOthers.end(), ending) == kOthers.end()) return;
-  if (ending == ".mp4" || ending == ".webm")
+  if (std::find(kFilms.begin(), kFilms.end(), ending) != kFilms.end())
     fail_usage("bihive render draws one picture, and " + ending + " is a film", "make films by bihive film");
-  fail_usage("bihive writes PNG and OpenEXR, not " + ending, "let the output end in .png or .exr");
+  if (std::find(kOthers.begin(), kOthers.end(), ending) == kOthers.end()) return;
+  fail_usage("bihive writes PNG, TIFF and OpenEXR, not " + ending, "let the output end in .png, .tif or .exr");
 }
 
 bool is_exr(const std::string& output) {
   return ending_of(output) == ".exr";
 }
 
+bool is_tiff(const std::string& output) {
+  const std::string ending = ending_of(output);
+  return ending == ".tif" || ending == ".tiff";
+}
+
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings) {
+  if (is_tiff(options.output) && !can_write_tiff())
+    fail_environment({"this build of bihive has no TIFF", options.output, 0, 0,
+                      "install libtiff-dev (scripts/setup demo) and build again, or write a PNG"});
   if (!is_exr(options.output)) {
     if (options.layers) fail_setting("layers", " need a file that holds them", "let the output end in .exr");
     return {};
@@ -178,6 +233,12 @@ std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scen
     fail_usage("OpenEXR holds light and layers of numbers, not the colours of " + setting_name("view"),
                "name layers: " + setting_name("layers") + " normal,depth,id");
   const Overrides& user = options.picture;
+  if (settings.stereo.form != StereoForm::none)
+    fail_setting("stereo", " joins two pictures for the eye, and OpenEXR has light and layers of one",
+                 "draw a PNG, or one picture for each " + setting_name("eye"));
+  if (user.has("matte"))
+    fail_setting("matte", " is for programs that mix values of the screen, and OpenEXR has light",
+                 "leave it out, or write a PNG");
   if (user.is_on("legend") || user.is_on("scale_bar") || user.is_on("axes") || user.has("title"))
     fail_usage("labels are drawn over the pixels of a PNG, and OpenEXR has light instead",
                "leave them out, or write a PNG too");
@@ -194,13 +255,14 @@ std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scen
 std::unique_ptr<PictureFile> open_picture(PictureToWrite picture) {
   const RenderOptions& options = picture.options;
   if (is_exr(options.output)) return std::make_unique<ExrFileOfRows>(std::move(picture));
+  if (is_tiff(options.output)) return std::make_unique<TiffFileOfRows>(std::move(picture));
   const Tile drawn = drawn_pixels(picture.settings);
   PngText text;
   if (options.metadata)
     for (const auto& [name, value] : picture.text) text.emplace_back(name, latin1(value));
-  PngEncoder encoder =
-      value_or_fail(PngEncoder::begin(drawn.width(), drawn.height(), picture.settings.transparent ? 4 : 3,
-                                      static_cast<int>(options.bits.value_or(8)), text, options.dots_per_inch));
+  PngEncoder encoder = value_or_fail(
+      PngEncoder::begin(drawn.width(), drawn.height(), picture.settings.transparent ? 4 : 3,
+                        static_cast<int>(options.bits.value_or(8)), text, options.dots_per_inch, is_srgb(picture)));
   return std::make_unique<PngFileOfRows>(std::move(picture), std::move(encoder));
 }
 

@@ -1,4 +1,4 @@
-// The file of `bihive render`, which grows by rows: PNG, or OpenEXR with layers.
+// The file of `bihive render`, which grows by rows: PNG, TIFF, or OpenEXR with layers.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,16 @@ namespace bihive::cli {
 
 struct RenderOptions;
 
-/// Fails with kBadUsage if the output's name promises a format that is not written: .jpg, .tif, .svg.
+/// Fails with kBadUsage if the output's name promises a format that is not written: .jpg, .gif, .svg.
 void check_picture_name(const std::string& output);
 
 /// Whether the output's name says so.
 bool is_exr(const std::string& output);
+bool is_tiff(const std::string& output);
 
-/// The layers of an OpenEXR file; empty for a PNG. Removes from the settings what such a file does not have: labels,
-/// and the exposure and curve that scene or style mean for a screen. Fails if options contradict the file's kind.
+/// The layers of an OpenEXR file; empty for PNG and TIFF. Removes from the settings what such a file does not have:
+/// labels, and the exposure and curve that scene or style mean for a screen. Fails if options contradict the file's
+/// kind.
 std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
 
 /// Converts a band of the film to the pixels of a PNG, with labels. `pixels`: the band's place in the whole picture.

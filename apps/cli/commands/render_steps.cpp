@@ -79,7 +79,7 @@ PreparedPicture prepare_render(const RenderOptions& options, const LoadPicture& 
   std::vector<Layer> layers = choose_layers(options, input.scene, settings);
   ordered_json described = settings_json(options, settings, input.scene, layers);
   if (whole != nullptr) described["spheres"] = whole->count;
-  const bool can_share = !is_gpu(engine) && !is_drawn_whole(settings.view) && (layers.empty() || has_radiance(layers));
+  const bool can_share = !is_gpu(engine) && !is_drawn_whole(settings) && (layers.empty() || has_radiance(layers));
   return {engine, std::move(input), settings, std::move(layers), std::move(described), can_share, reading.elapsed_ms()};
 }
 

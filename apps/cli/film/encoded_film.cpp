@@ -3,7 +3,7 @@
 // FILE.part holds the segments, each named by its first picture and the first one after it. A segment gets this name
 // when it is complete and ffmpeg has counted its pictures; a later run continues after the last one. Until then it has
 // a unique name, because a killed run's ffmpeg may still write. In the end ffmpeg joins the segments without encoding
-// them again.
+// them again. GIF and APNG, which cannot be joined, are made of segments without loss.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include <memory>
 #include <utility>
 
+#include "bihive/base/setting_name.h"
 #include "bihive/base/timer.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
@@ -42,27 +43,35 @@ std::string ending_of_film(const std::string& output) {
   return output.substr(output.rfind('.'));
 }
 
+// Segments of a GIF or APNG have no loss; the whole film is encoded in the end, a GIF with the palette of all pictures.
+constexpr const char* kLosslessEnding = ".mkv";
+constexpr const char* kPalette = "palette.png";
+
+// The browser's own limit: shorter delays become longer ones.
+constexpr std::int64_t kMostGifRate = 50;
+
 class EncodedFilm final : public FilmSink {
  public:
   EncodedFilm(const FilmPlan& plan, const std::string& output, std::string ffmpeg, FilmFolder& film)
       : film_(film),
-        ending_(ending_of_film(output)),
+        animation_(is_animation(output) ? ending_of_film(output) : ""),
+        ending_(animation_.empty() ? ending_of_film(output) : kLosslessEnding),
         ffmpeg_(std::move(ffmpeg)),
         pictures_(plan.positions()),
         shortest_((plan.asked.rate.pictures + plan.asked.rate.seconds - 1) / plan.asked.rate.seconds) {
-    input_ = {"-f",
-              "rawvideo",
-              "-pixel_format",
-              "rgb24",
-              "-video_size",
-              fmt::format("{}x{}", plan.fixed.width_px, plan.fixed.height_px),
-              "-framerate",
-              fmt::format("{}/{}", plan.asked.rate.pictures, plan.asked.rate.seconds),
-              "-i",
-              "pipe:0",
-              "-an"};
-    codec_ = plan.asked.codec.empty() ? default_codec(ending_, plan.fixed.width_px, plan.fixed.height_px)
-                                      : codec_words(plan.asked.codec);
+    if (is_gif() && plan.asked.rate.pictures > kMostGifRate * plan.asked.rate.seconds)
+      fail_usage("a GIF shows at most 50 pictures per second",
+                 "choose a lower " + setting_name("fps") + ", or let the output end in .apng");
+    rate_ = fmt::format("{}/{}", plan.asked.rate.pictures, plan.asked.rate.seconds);
+    input_ = {"-f",         "rawvideo",    "-pixel_format",
+              "rgb24",      "-video_size", fmt::format("{}x{}", plan.fixed.width_px, plan.fixed.height_px),
+              "-framerate", rate_,         "-i",
+              "pipe:0",     "-an"};
+    if (!animation_.empty())
+      codec_ = {"-c:v", "ffv1", "-pix_fmt", "bgr0"};
+    else
+      codec_ = plan.asked.codec.empty() ? default_codec(ending_, plan.fixed.width_px, plan.fixed.height_px)
+                                        : codec_words(plan.asked.codec);
     if (film_.existing() != nullptr) find_segments(*film_.existing());
   }
 
@@ -89,6 +98,7 @@ class EncodedFilm final : public FilmSink {
     if (run_) end_segment();
     if (segments_.empty() || segments_.back().end != pictures_)
       fail({"the film lacks pictures", film_.folder().path(), 0, 0, "run the same again"});
+    if (!animation_.empty()) return film_.finish(animated());
     film_.finish(segments_.size() > 1 ? joined() : segment_name(segments_.front()));
   }
 
@@ -166,13 +176,47 @@ class EncodedFilm final : public FilmSink {
       fail_of_system("writing failed", folder.path_of(name), code);
   }
 
+  bool is_gif() const { return !animation_.empty() && (animation_[1] == 'g' || animation_[1] == 'G'); }
+
   // Paths in ffmpeg's list are relative to it.
-  std::string joined() const {
+  void write_list() const {
     const OwnFolder& folder = film_.folder();
     std::string list = "ffconcat version 1.0\n";
     for (const Segment& segment : segments_) list += "file " + segment_name(segment) + "\n";
     folder.remove(kList);
     folder.write_new(kList, list, kForOwner);
+  }
+
+  // A GIF or an APNG of all segments.
+  std::string animated() const {
+    const OwnFolder& folder = film_.folder();
+    write_list();
+    const std::vector<std::string> input{"-f", "concat", "-safe", "0",
+                                         "-r", rate_,    "-i",    FfmpegRun::url(folder, kList)};
+    const auto run = [&](const std::vector<std::string>& more, const std::string& name) {
+      std::vector<std::string> words = input;
+      words.insert(words.end(), more.begin(), more.end());
+      words.push_back(FfmpegRun::url(folder, name));
+      FfmpegRun(ffmpeg_, words, folder, FfmpegRun::Input::none).finish();
+    };
+    const std::string whole = kJoined + random_digits() + animation_;
+    if (is_gif()) {
+      folder.remove(kPalette);
+      run({"-vf", "palettegen", "-frames:v", "1", "-update", "1", "-f", "image2"}, kPalette);
+      run({"-i", FfmpegRun::url(folder, kPalette), "-lavfi", "paletteuse=diff_mode=rectangle", "-loop", "0", "-f",
+           "gif"},
+          whole);
+      folder.remove(kPalette);
+    } else {
+      run({"-c:v", "apng", "-pix_fmt", "rgb24", "-plays", "0", "-f", "apng"}, whole);
+    }
+    check_and_flush(folder, whole, pictures_);
+    return whole;
+  }
+
+  std::string joined() const {
+    const OwnFolder& folder = film_.folder();
+    write_list();
     std::string whole = kJoined + random_digits() + ending_;
     FfmpegRun(ffmpeg_,
               {"-f", "concat", "-safe", "0", "-i", FfmpegRun::url(folder, kList), "-c", "copy",
@@ -184,7 +228,8 @@ class EncodedFilm final : public FilmSink {
   }
 
   FilmFolder& film_;
-  std::string ending_, ffmpeg_;
+  std::string animation_;  // ".gif" or ".apng"; empty: another film
+  std::string ending_, ffmpeg_, rate_;
   std::int64_t pictures_, shortest_;
   std::vector<std::string> input_, codec_;
   std::vector<Segment> segments_;

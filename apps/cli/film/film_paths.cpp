@@ -67,11 +67,17 @@ FilmKind film_kind(const std::string& output) {
     return FilmKind::pictures;
   }
   if (ending == ".y4m") return FilmKind::y4m;
-  for (const char* known : {".mp4", ".mov", ".mkv", ".webm"})
+  for (const char* known : {".mp4", ".mov", ".mkv", ".webm", ".gif", ".apng"})
     if (ending == known) return FilmKind::encoded;
   fail_usage(
-      "a film ends in .mp4, .mov, .mkv, .webm or .y4m, or is a sequence such as run/%05d.png; found \"" + output + "\"",
+      "a film ends in .mp4, .mov, .mkv, .webm, .gif, .apng or .y4m, or is a sequence such as run/%05d.png; found \"" +
+          output + "\"",
       "choose one of these endings");
+}
+
+bool is_animation(const std::string& output) {
+  const std::string ending = lower_ending(output);
+  return ending == ".gif" || ending == ".apng";
 }
 
 void check_link_of_film(const std::string& link, const std::string& film) {

@@ -43,6 +43,9 @@ enum class FilmKind { pictures, y4m, encoded };
 /// Fails with kBadUsage on another ending, or on a sequence whose file name does not have its number in one place.
 FilmKind film_kind(const std::string& output);
 
+/// Whether it is a GIF or an APNG: an encoded film whose form has no choice of codecs.
+bool is_animation(const std::string& output);
+
 /// Fails with kBadUsage if the file to which the film's output leads has another ending.
 void check_link_of_film(const std::string& link, const std::string& film);
 

@@ -15,7 +15,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/prepare_picture.h"
-#include "bihive/render/draw_labels.h"
+#include "bihive/render/finished_pixels.h"
 #include "bihive/render/frame_picture.h"
 #include "commands/draw_on_ranks.h"
 #include "commands/draw_picture.h"
@@ -48,10 +48,8 @@ class PixelsInMemory final : public PictureFile {
 
   Status add(const Film& film, const Tile& part) override {
     RenderSettings settings = picture_.settings;
-    const Transfer curve = settings.view == View::shaded ? picture_.input.scene.picture.transfer : Transfer::none;
-    PngPixels rows = png_pixels_from_film(film, curve, bits(), settings.threads);
     settings.crop = part;
-    draw_labels(rows, picture_.input.scene, settings);
+    PngPixels rows = finished_pixels(film, picture_.input.scene, settings, bits());
     if (pixels_.height == 0) {
       pixels_ = std::move(rows);
       return Done{};
@@ -228,7 +226,7 @@ class FilmSteps {
   void draw(const BuiltPicture& picture, PngPixels& drawn, const ProgressCallback& update) {
     PixelsInMemory pixels(picture, drawn);
     const RenderEngine engine = choose_engine(options_);
-    const bool is_shared = ranks_ != nullptr && !is_gpu(engine) && !is_drawn_whole(picture.settings.view);
+    const bool is_shared = ranks_ != nullptr && !is_gpu(engine) && !is_drawn_whole(picture.settings);
     if (ranks_ != nullptr) ranks_->barrier();
     if (is_shared)
       draw_on_ranks(picture.input.scene, *picture.tracer, picture.settings, sink_ != nullptr ? &pixels : nullptr,

@@ -7,6 +7,7 @@
 
 #include "bihive/job/failure.h"
 #include "bihive/render/frame_picture.h"
+#include "bihive/render/stereo.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/framing_cell.h"
@@ -21,7 +22,8 @@ std::vector<Vec3d> corners_of_cell(const SphereSet& spheres, const RenderSetting
 }  // namespace
 
 Camera camera_around(const Input& input, const Camera& camera, const RenderOptions& options,
-                     const RenderSettings& settings) {
+                     const RenderSettings& whole) {
+  const RenderSettings settings = one_view(whole);
   // The ball around the centre of all bounds that contains everything.
   const RemainingSpheres remaining(input.scene);
   const SphereSet::Bounds bounds = remaining.set().bounds();

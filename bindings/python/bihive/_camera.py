@@ -85,7 +85,7 @@ class Look:
 
     select: an expression (docs/selections.md). show: False hides them. colour: a name, "#rrggbb" or three numbers of linear
     light. colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
-    outline: pixels. crease: an attribute. clip: a text such as "plane:1,0,0,2.5", or several.
+    outline: pixels. crease: an attribute. legend_name: a text. clip: a text such as "plane:1,0,0,2.5", or several.
 
     >>> Look("element C", colour="orange", opacity=0.5).words()
     ['--select=element C', '--colour=orange', '--opacity=0.5']
@@ -100,6 +100,7 @@ class Look:
     radius_scale: Optional[float] = None
     outline: Optional[float] = None
     crease: Optional[str] = None
+    legend_name: Optional[str] = None
     clip: Union[str, Sequence[str], None] = None
 
     def words(self) -> list[str]:

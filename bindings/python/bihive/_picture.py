@@ -68,7 +68,7 @@ class Picture:
         return self._core.layer(text_of("name", name, "the name of a layer"))
 
     def save(self, path: Union[str, os.PathLike[str]], *, layers: Optional[str] = None, metadata: bool = True) -> None:
-        """Writes a PNG, or OpenEXR where the path ends in .exr, whole or not at all.
+        """Writes a PNG, or TIFF (.tif) or OpenEXR (.exr) where the path ends so, whole or not at all.
 
         `layers` are names of layer() between commas, for OpenEXR ("radiance"): the file holds the same numbers.
         `metadata`: the file says how it was drawn, for verify() and again() too; False: pixels alone. Raises FileError (an
@@ -85,12 +85,16 @@ class Picture:
             except InputError as error:
                 raise FileError(0, str(error), text) from None
             return
-        if ending not in ("", ".png"):
-            raise bad_argument("path", f"save() writes PNG and OpenEXR, not {ending}", "let it end in .png or .exr")
+        is_tiff = ending in (".tif", ".tiff")
+        if ending not in ("", ".png") and not is_tiff:
+            raise bad_argument("path", f"save() writes PNG, TIFF and OpenEXR, not {ending}", "let it end in .png, .tif or .exr")
         if layers is not None:
-            raise bad_argument("layers", "a PNG holds no layers", "let the path end in .exr")
+            raise bad_argument("layers", f"a {'TIFF' if is_tiff else 'PNG'} holds no layers", "let the path end in .exr")
         try:
-            self._core.save(os.fsencode(text), metadata)
+            if is_tiff:
+                self._core.save_tiff(os.fsencode(text), metadata)
+            else:
+                self._core.save(os.fsencode(text), metadata)
         except ValueError as error:
             raise FileError(0, str(error), text) from None
 

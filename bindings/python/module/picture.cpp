@@ -15,6 +15,7 @@
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
 #include "bihive/image/png.h"
+#include "bihive/image/tiff.h"
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/figure.h"
@@ -24,7 +25,7 @@
 #include "bihive/job/prepare_picture.h"
 #include "bihive/job/render_on_gpu.h"
 #include "bihive/job/report_text.h"
-#include "bihive/render/draw_labels.h"
+#include "bihive/render/finished_pixels.h"
 #include "bihive/render/layers.h"
 #include "bihive/render/memory.h"
 #include "errors.h"
@@ -131,10 +132,7 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
   // Build and draw.
   drawing->tracer = value_of(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
   Rendered rendered = draw(*drawing, engine, work);
-  const Transfer curve = settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
-  picture->pixels =
-      png_pixels_from_film(rendered.film, curve, static_cast<int>(options.bits.value_or(8)), settings.threads);
-  draw_labels(picture->pixels, scene, settings);
+  picture->pixels = finished_pixels(rendered.film, scene, settings, static_cast<int>(options.bits.value_or(8)));
 
   // Keep its facts.
   const nlohmann::ordered_json described = settings_json(options, settings, scene, {});
@@ -276,6 +274,20 @@ void save_exr(const Picture& picture, const std::string& path, const std::string
       py::none());
 }
 
+void save_tiff(const Picture& picture, const std::string& path, bool metadata) {
+  const PngPixels& pixels = picture.pixels;
+  TiffForm form{pixels.width, pixels.height, pixels.channels, pixels.bits, picture.dots_per_inch, "", ""};
+  for (const auto& [name, value] : picture.exr_text) {
+    if (!metadata) break;
+    if (name == "Software") form.software = value;
+    if (name == "Settings") form.description = value;
+  }
+  if (!can_write_tiff())
+    fail_environment(
+        {"this build of bihive has no TIFF", path, 0, 0, "install libtiff-dev and build again, or save a PNG"});
+  value_of(write_tiff(path, form, pixels));
+}
+
 std::string png_bytes(const Picture& picture, bool metadata = true) {
   return value_of(encode_png(picture.pixels, metadata ? picture.text : PngText{}, picture.dots_per_inch));
 }
@@ -327,6 +339,7 @@ void bind_pictures(py::module_& module) {
              const py::gil_scoped_release unlocked;
              value_of(write_file(path, png_bytes(p, metadata)));
            })
+      .def("save_tiff", save_tiff)
       .def("save_exr", save_exr)
       .def("detach", [](Picture& p) { p.light.reset(); })
       .def(py::pickle(&state_of, &from_state));

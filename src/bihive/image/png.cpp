@@ -17,6 +17,9 @@ namespace {
 // A fast level: higher levels compress rendered pictures little more.
 constexpr int kCompressionLevel = 1;
 
+// Nearly sRGB, for programs that do not know it: 1 / 2.2 in steps of 1e-5, as the specification says.
+constexpr png_fixed_point kGammaOfSrgb = 45455;
+
 // The data that libpng's callbacks use. libpng reports errors by longjmp, so the frames that it skips hold nothing with
 // a destructor.
 struct PngState {
@@ -51,6 +54,7 @@ struct PngHead {
   png_uint_32 width, height;
   int bits, colour_type;
   png_uint_32 pixels_per_metre;  // 0: not said
+  bool is_srgb;
 };
 
 // The parts between setjmp and longjmp: plain pointers only. False on an error.
@@ -60,6 +64,10 @@ bool write_head(png_structp png, png_infop info, PngState* state, const PngHead*
   png_set_compression_level(png, kCompressionLevel);
   png_set_IHDR(png, info, head->width, head->height, head->bits, head->colour_type, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (head->is_srgb) {
+    png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_gAMA_fixed(png, info, kGammaOfSrgb);
+  }
   if (head->pixels_per_metre > 0)
     png_set_pHYs(png, info, head->pixels_per_metre, head->pixels_per_metre, PNG_RESOLUTION_METER);
   if (texts > 0) png_set_text(png, info, text, texts);
@@ -161,13 +169,17 @@ PngEncoder& PngEncoder::operator=(PngEncoder&& other) noexcept = default;
 PngEncoder::~PngEncoder() = default;
 
 Result<PngEncoder> PngEncoder::begin(int width, int height, int channels, int bits, const PngText& text,
-                                     double dots_per_inch) {
+                                     double dots_per_inch, bool is_srgb) {
   BIHIVE_CHECK(channels == 3 || channels == 4);
   BIHIVE_CHECK(bits == 8 || bits == 16);
   const PngPixels form{width, height, channels, bits, {}};
   auto implementation = std::make_unique<Implementation>(form.row_bytes());
-  const PngHead head{static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits,
-                     channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, pixels_per_metre(dots_per_inch)};
+  const PngHead head{static_cast<png_uint_32>(width),
+                     static_cast<png_uint_32>(height),
+                     bits,
+                     channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                     pixels_per_metre(dots_per_inch),
+                     is_srgb};
   if (Status status = implementation->begin(head, text); !status) return status.error();
   return PngEncoder(std::move(implementation));
 }
@@ -190,10 +202,10 @@ std::string PngEncoder::take_bytes() {
 namespace {
 
 Result<std::string> encode_rows(const std::uint8_t* rows, int width, int height, int channels, int bits,
-                                const PngText& text, double dots_per_inch) {
+                                const PngText& text, double dots_per_inch, bool is_srgb) {
   PngText before, after;
   for (const auto& chunk : text) (chunk.first == kLateKeyword ? after : before).push_back(chunk);
-  Result<PngEncoder> encoder = PngEncoder::begin(width, height, channels, bits, before, dots_per_inch);
+  Result<PngEncoder> encoder = PngEncoder::begin(width, height, channels, bits, before, dots_per_inch, is_srgb);
   if (!encoder) return encoder.error();
   if (Status status = encoder->add(rows, height); !status) return status.error();
   if (Status status = encoder->finish(after); !status) return status.error();
@@ -204,13 +216,13 @@ Result<std::string> encode_rows(const std::uint8_t* rows, int width, int height,
 
 Result<std::string> encode_png(const Image& image, const PngText& text) {
   BIHIVE_CHECK_EQ(image.rgb.size(), 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  return encode_rows(image.rgb.data(), image.width, image.height, 3, 8, text, 0);
+  return encode_rows(image.rgb.data(), image.width, image.height, 3, 8, text, 0, false);
 }
 
 Result<std::string> encode_png(const PngPixels& pixels, const PngText& text, double dots_per_inch) {
   BIHIVE_CHECK_EQ(pixels.bytes.size(), pixels.row_bytes() * static_cast<std::size_t>(pixels.height));
   return encode_rows(pixels.bytes.data(), pixels.width, pixels.height, pixels.channels, pixels.bits, text,
-                     dots_per_inch);
+                     dots_per_inch, pixels.is_srgb);
 }
 
 Status write_png(const std::string& path, const Image& image, const PngText& text) {

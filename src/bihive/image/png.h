@@ -22,15 +22,16 @@ inline const std::string kLateKeyword = "bihive";
 /// The whole file in memory.
 Result<std::string> encode_png(const Image& image, const PngText& text);
 
-/// `dots_per_inch`: the size at which the picture is printed; 0 says nothing about it.
+/// `dots_per_inch`: the size at which the picture is printed; 0 says nothing about it. Pixels that are sRGB are said to
+/// be (sRGB and gAMA).
 Result<std::string> encode_png(const PngPixels& pixels, const PngText& text, double dots_per_inch = 0);
 
 /// A PNG that grows by rows, for pictures that are larger than the memory. The bytes are those of encode_png().
 class PngEncoder {
  public:
-  /// The size of the whole picture; channels and bits as in PngPixels.
+  /// The size of the whole picture; channels, bits and is_srgb as in PngPixels.
   static Result<PngEncoder> begin(int width, int height, int channels, int bits, const PngText& text,
-                                  double dots_per_inch = 0);
+                                  double dots_per_inch = 0, bool is_srgb = false);
   PngEncoder(PngEncoder&& other) noexcept;
   PngEncoder& operator=(PngEncoder&& other) noexcept;
   ~PngEncoder();

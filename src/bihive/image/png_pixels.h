@@ -17,6 +17,7 @@ struct PngPixels {
   int channels = 3;  ///< 3 or 4
   int bits = 8;      ///< 8 or 16
   std::vector<std::uint8_t> bytes;
+  bool is_srgb = false;  ///< colours of a screen, and not numbers that stand for something else
 
   std::size_t row_bytes() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels) * static_cast<std::size_t>(bits / 8);
@@ -27,6 +28,12 @@ struct PngPixels {
 /// four channels: the opacity is the coverage without a curve, and the colour is not multiplied by it. With 8 bits and
 /// without coverage, the bytes are those of image_from_film(). `threads` 0: all.
 PngPixels png_pixels_from_film(const Film& film, Transfer curve, int bits, int threads = 0);
+
+/// The same of a film with coverage, for a page of one colour (linear, 0 to 1), in front of which programs show the
+/// picture by mixing values of the screen. If they round to the nearest number, they show, bit for bit, the pixels of
+/// the film with this colour behind it under the curve. So a pixel's opacity is at least its coverage, and its colour
+/// is the one that gives the right mixture; without coverage it is that of the page.
+PngPixels matted_pixels_from_film(const Film& film, Transfer curve, int bits, Vec3d page, int threads = 0);
 
 /// SHA-256 of the bytes, in hexadecimal digits.
 std::string sha256_of(const PngPixels& pixels);

@@ -130,6 +130,7 @@ void remove_spheres(Scene& scene) {
   scene.id_in_input.clear();
   scene.coloured_by.clear();
   scene.coloured_by_of_sphere.clear();
+  scene.legend_names.clear();
 }
 
 }  // namespace

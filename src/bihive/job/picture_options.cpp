@@ -439,6 +439,8 @@ void add_spheres(Rows& rows) {
               "After a selection: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)",
               outline_all),
        action("crease", "ATTR", "Lines between those that touch and differ in it, such as chain"),
+       action("legend_name", "TEXT",
+              "Name them in the legend: beside their colour, or above the key of their colour-by"),
        action("clip", "plane:NX,NY,NZ,D|box:X0,Y0,Z0,X1,Y1,Z1|sphere:X,Y,Z,R",
               "Cut them open: n.x > D, the box or the sphere is removed; repeatable"),
        {.id = "element_colours",

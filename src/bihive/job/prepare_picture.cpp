@@ -18,6 +18,8 @@
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/frame_picture.h"
 #include "bihive/render/memory.h"
+#include "bihive/render/renderer.h"
+#include "bihive/render/stereo.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/legend.h"
 #include "bihive/scene/title_text.h"
@@ -52,6 +54,19 @@ std::string filled_title(const std::string& title, const PictureRequest& request
   return *filled;
 }
 
+void check_stereo(const RenderSettings& settings) {
+  const Stereo& stereo = settings.stereo;
+  if (stereo.form == StereoForm::none) return;
+  if (settings.view != View::shaded)
+    fail_setting("stereo", " draws the shaded picture alone", "leave out " + setting_name("view"));
+  if (settings.crop) fail_setting("stereo", " draws the whole picture", "leave out " + setting_name("crop"));
+  if (stereo.halves() && settings.width_px % 2 != 0)
+    fail_setting("stereo", fmt::format(" makes two halves of the picture, and {} pixels have none", settings.width_px),
+                 "give an even width by " + setting_name("size"));
+  if (stereo.form == StereoForm::anaglyph && settings.transparent)
+    fail_setting("stereo", " anaglyph has no transparent background", "give a colour by " + setting_name("background"));
+}
+
 // Applies the user's options to the scene: transfer curve, background, camera, light. Returns the scene's own settings
 // with the user's options.
 RenderSettings apply_options(const PictureRequest& request, Input& input, const CameraSelections& selections,
@@ -77,6 +92,9 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   if (user.has("length_unit") && !settings.labels.scale_bar)
     fail_setting("length_unit", " is for the scale bar, and the picture has none",
                  "add " + setting_name("scale_bar") + ", or leave it out");
+  if (user.has("legend_title") && !settings.labels.legend)
+    fail_setting("legend_title", " is for the legend, and the picture has none",
+                 "add " + setting_name("legend") + ", or leave it out");
   if (user.is_on("cell") && !scene.spheres.cell() && !scene.spheres.empty())
     fail({"there is no periodic cell that " + setting_name("cell") + " could draw", request.input.input, 0, 0,
           "give one with " + setting_name("cell_vectors")});
@@ -87,17 +105,28 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   settings.threads = static_cast<int>(request.threads);
   if (request.background && !settings.transparent)
     scene.background = *colour_from(*request.background, scene.picture.transfer);
+  if (user.has("matte") && !settings.transparent)
+    fail_setting("matte", " is the colour behind a transparent picture, and this one has a background",
+                 "add " + setting_name("background") + " none, or give the colour by " + setting_name("background"));
+  if (!settings.transparent) settings.matte.reset();
+  if (settings.matte) scene.background = *settings.matte;
+  if (user.has("eye_distance") && settings.stereo.form == StereoForm::none)
+    fail_setting("eye_distance", " is for stereo pictures", "add " + setting_name("stereo") + " side");
+  check_stereo(settings);
   if (settings.transparent && shows_reference_tree(settings.view))
     fail_setting("view", " " + name_of(kViews, settings.view) + " has no transparent background",
                  "give a colour by " + setting_name("background") + ", or choose another view");
   settings.labels.title =
       filled_title(settings.labels.title, request, input, whole != nullptr ? whole->count : scene.spheres.size());
   const bool is_fixed = request.fixed && !request.fixed->fits_each;
-  scene.camera = is_fixed ? request.fixed->camera : choose_camera(input, request, settings, selections, whole);
+  scene.camera = is_fixed ? request.fixed->camera : choose_camera(input, request, one_view(settings), selections, whole);
   if (const Status status = check_picture(settings, scene.camera.aperture); !status)
     fail_usage(status.error().message, status.error().hint);
   apply_look(request.style, input);
   leave_out_labels(user, scene, settings);
+  const bool asks_for_fog = input.states_fog || user.has("fog") || user.has("fog_start") || user.has("fog_end");
+  // Colours equal their keys.
+  if (settings.labels.legend && !asks_for_fog) settings.fog.reset();
   return settings;
 }
 
@@ -107,6 +136,7 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
     fail_setting("engine", " " + name_of(kRenderEngines, engine) + " draws no " + what,
                  "leave " + setting_name("engine") + " out, or draw " + without);
   };
+  if (settings.stereo.form != StereoForm::none) refuse("stereo pictures", "without " + setting_name("stereo"));
   if (settings.cell_lines) refuse("edges of a cell", "without " + setting_name("cell"));
   if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: " + setting_name("samples") + " 4");
   if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
@@ -136,8 +166,8 @@ std::string why_empty(const Scene& scene, const RenderSettings& settings) {
   if (all(spheres.r())) return "no sphere is seen: all have radius 0";
   const std::vector<float>& opacity = spheres.attributes().opacity;
   if (settings.view == View::shaded && !opacity.empty() && all(opacity)) return "no sphere is seen: all have opacity 0";
-  const CanvasArea whole{0, 0, double(settings.width_px), double(settings.height_px)};
-  RenderSettings without_cell = settings;
+  RenderSettings without_cell = one_view(settings);
+  const CanvasArea whole{0, 0, double(without_cell.width_px), double(without_cell.height_px)};
   without_cell.cell_lines.reset();
   if (covers_spheres(spheres, scene.camera, without_cell, whole)) return "";
   return "no sphere is in the picture: the camera looks past them; without a camera of your own all are in view";
@@ -189,6 +219,8 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
     if (const std::string why = why_empty(input.scene, settings); !why.empty()) warn(why);
     if ((request.eye || request.fit) && !is_of_film)
       if (const std::string dark = dark_insides(input.scene, settings); !dark.empty()) warn(dark);
+    if (settings.labels.legend)
+      if (const std::string equal = equal_colours(input.scene); !equal.empty()) warn(equal);
     for (const std::string& lacking : missing_letters(input.scene, settings.labels)) warn(lacking);
   }
   return settings;
@@ -198,7 +230,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
 constexpr double kFileBytes = 2 * 3;
 
 bool comes_whole(RenderEngine engine, const RenderSettings& settings) {
-  return is_gpu(engine) || settings.view == View::distance || settings.view == View::tree;
+  return is_gpu(engine) || is_drawn_whole(settings);
 }
 
 void check_memory_of(RenderEngine engine, const Input& input, const PictureRequest& request,

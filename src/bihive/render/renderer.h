@@ -25,11 +25,11 @@ struct Rendered {
 /// Called now and then, from one thread at a time, with the finished share of the picture, 0 to 1.
 using ProgressCallback = std::function<void(double done)>;
 
-/// Settings must be in range (a programmer's error otherwise). The traversal and tree views need a tracer of the
-/// reference engine: an Error without one. The Error is "cancelled" if the token was set before the picture was
-/// complete. The new film takes the memory of `film`, whose contents are lost; so all frames can share one film. Each
-/// thread that took part keeps its buffers for the next picture, usually a few MB
-/// (render/shade/wave/wave_integrator.h).
+/// A stereo picture is that of render_stereo() (render/stereo.h). Settings must be in range (a programmer's error
+/// otherwise). The traversal and tree views need a tracer of the reference engine: an Error without one. The Error is
+/// "cancelled" if the token was set before the picture was complete. The new film takes the memory of `film`, whose
+/// contents are lost; so all frames can share one film. Each thread that took part keeps its buffers for the next
+/// picture, usually a few MB (render/shade/wave/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
 
@@ -44,8 +44,8 @@ struct RenderedBands {
 /// The next part to draw, some of drawn_pixels(); nothing: there are no more.
 using NextPart = std::function<std::optional<Tile>()>;
 
-/// Views that are drawn whole: no part of them has the bits of the picture.
-bool is_drawn_whole(View view);
+/// Views that are drawn whole, because no part of them has the bits of the picture, and stereo pictures.
+bool is_drawn_whole(const RenderSettings& settings);
 
 /// Parts of a picture in any order, so that several processes can share it. Each has the bits of the whole picture.
 /// Progress is that of the part. Not for views that are drawn whole (a programmer's error).
@@ -55,7 +55,7 @@ Result<RenderedBands> render_parts(const Scene& scene, const Tracer& tracer, con
 
 /// The same picture from the top in bands of `band_rows` rows, at least one; the last may have fewer. So a picture
 /// needs the memory of a band (render/memory.h). Each band has the bits of the whole picture. The views distance and
-/// tree are drawn whole, in one band. Progress is that of the whole picture.
+/// tree and stereo pictures are drawn whole, in one band. Progress is that of the whole picture.
 Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                       int band_rows, const BandCallback& take, const ProgressCallback& progress = {},
                                       const CancelToken* cancel = nullptr);

@@ -29,6 +29,7 @@ struct ColourBy {
   ColourChoice nan_colour = std::string("grey");   ///< of spheres whose number is unknown (NaN)
   std::optional<std::pair<double, double>> percentiles = {};  ///< of these values, in place of an open range's ends
   std::optional<double> middle = {};                          ///< the range is widened so that the map's middle is here
+  std::string title = {};                                     ///< of the legend's key; empty: the attribute
 };
 
 /// The file name that stands in place of a map in a text for colour_by_from_text(); empty if there is none. A part with

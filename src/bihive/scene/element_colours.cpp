@@ -90,6 +90,7 @@ Status recolour_elements(Scene& scene, const ElementColours& colours) {
   by_element.attribute = "element";
   scene.coloured_by = {by_element};
   scene.coloured_by_of_sphere.clear();
+  scene.legend_names.clear();
   return Done{};
 }
 

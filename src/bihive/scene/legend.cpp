@@ -113,7 +113,7 @@ class KeyCollector {
   const std::vector<std::int64_t>& spheres() const { return spheres_; }
   LegendKey key() const {
     LegendKey key;
-    key.title = how_.attribute;
+    key.title = how_.title.empty() ? how_.attribute : how_.title;
     if (how_.range && is_known_) key.scale = {how_.map.value_or(ColourMap()), *how_.range, how_.logarithmic};
     for (const auto& [place, entry] : entries_) key.entries.push_back(entry);
     return key;
@@ -144,12 +144,53 @@ std::vector<KeyCollector> collected(const Scene& scene) {
   return collectors;
 }
 
+// The first sphere of each name, -1: it has none.
+std::vector<std::int64_t> spheres_of_names(const Scene& scene) {
+  std::vector<std::int64_t> first(scene.legend_names.size(), -1);
+  if (first.empty()) return first;
+  for (std::size_t id = 0; id < scene.coloured_by_of_sphere.size(); ++id) {
+    const std::int32_t meaning = scene.coloured_by_of_sphere[id];
+    if (meaning > -2) continue;
+    std::int64_t& of_name = first[static_cast<std::size_t>(-2 - meaning)];
+    if (of_name < 0) of_name = static_cast<std::int64_t>(id);
+  }
+  return first;
+}
+
+// The named selections. One name with one colour stands once.
+LegendKey key_of_names(const Scene& scene) {
+  LegendKey key;
+  const std::vector<std::int64_t> spheres = spheres_of_names(scene);
+  for (std::size_t name = 0; name < spheres.size(); ++name) {
+    if (spheres[name] < 0) continue;
+    const Vec3f colour = scene.spheres.attributes().colour[static_cast<std::size_t>(spheres[name])];
+    const LegendEntry entry{scene.legend_names[name], screen_colour(to_double(colour), scene.picture.transfer)};
+    const bool is_new = std::none_of(key.entries.begin(), key.entries.end(), [&entry](const LegendEntry& other) {
+      return other.name == entry.name && other.colour == entry.colour;
+    });
+    if (is_new) key.entries.push_back(entry);
+  }
+  return key;
+}
+
 }  // namespace
 
 std::vector<LegendKey> legend_of(const Scene& scene) {
   std::vector<LegendKey> keys;
   for (const KeyCollector& collector : collected(scene))
     if (collector.used()) keys.push_back(collector.key());
+  if (LegendKey names = key_of_names(scene); !names.entries.empty()) keys.push_back(std::move(names));
+  return keys;
+}
+
+std::vector<LegendKey> legend_of(const Scene& scene, const Labels& labels) {
+  std::vector<LegendKey> keys = legend_of(scene);
+  if (labels.legend_title.empty()) return keys;
+  const auto titled = std::find_if(keys.rbegin(), keys.rend(), [](const LegendKey& key) { return !key.title.empty(); });
+  if (titled != keys.rend())
+    titled->title = labels.legend_title;
+  else if (!keys.empty())
+    keys.back().title = labels.legend_title;
   return keys;
 }
 
@@ -157,6 +198,8 @@ std::vector<std::int64_t> spheres_of_legend(const Scene& scene) {
   std::vector<std::int64_t> ids;
   for (const KeyCollector& collector : collected(scene))
     ids.insert(ids.end(), collector.spheres().begin(), collector.spheres().end());
+  for (const std::int64_t id : spheres_of_names(scene))
+    if (id >= 0) ids.push_back(id);
   return ids;
 }
 
@@ -187,6 +230,37 @@ std::string shared_colours(const Scene& scene) {
              " share one: " + named +
              (shared > kMostNamed ? " and " + std::to_string(shared - kMostNamed) + " more" : "");
   }
+  return "";
+}
+
+namespace {
+
+// The eye does not tell such colours apart where they are not side by side.
+constexpr double kNearly = 30.0 / 255;
+
+double difference(Vec3d a, Vec3d b) {
+  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+}
+
+// A sentence on two entries of different names; empty: their colours differ.
+std::string equal_entries(const LegendEntry& a, const LegendEntry& b) {
+  if (a.name == b.name || a.colour.x < 0 || b.colour.x < 0 || difference(a.colour, b.colour) > kNearly) return "";
+  return std::string("the legend has ") + (a.colour == b.colour ? "one" : "nearly one") + " colour for " + a.name +
+         " and " + b.name;
+}
+
+}  // namespace
+
+std::string equal_colours(const Scene& scene) {
+  const std::vector<LegendKey> keys = legend_of(scene);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    for (std::size_t other = k; other < keys.size(); ++other) {
+      // shared_colours() tells of categories of one attribute.
+      if (other == k && !keys[k].title.empty()) continue;
+      for (const LegendEntry& entry : keys[k].entries)
+        for (const LegendEntry& equal : keys[other].entries)
+          if (std::string sentence = equal_entries(entry, equal); !sentence.empty()) return sentence;
+    }
   return "";
 }
 

@@ -27,15 +27,23 @@ struct LegendEntry {
 
 /// One attribute by which spheres are coloured.
 struct LegendKey {
-  std::string title;                 ///< the attribute's name
+  std::string title;                 ///< the attribute's name; empty: names of selections
   std::optional<LegendScale> scale;  ///< unset: categories
   std::vector<LegendEntry> entries;  ///< categories; of a scale: the colour of unknown numbers, if there are any
 };
 
-/// A key for each attribute that colours at least one sphere, in the order of Scene::coloured_by. Categories are those
+/// A key for each attribute that colours at least one sphere, in the order of Scene::coloured_by, then one with the
+/// names of selections (Scene::legend_names). Categories are those
 /// of the present spheres: elements and numbers from low to high, texts in the input's order. Costs a pass over all
 /// spheres.
 std::vector<LegendKey> legend_of(const Scene& scene);
+
+/// The same with the title of the labels, which is that of the last key with a title.
+std::vector<LegendKey> legend_of(const Scene& scene, const Labels& labels);
+
+/// A sentence on two entries of the legend that have different names and one colour, or nearly one, unless they are
+/// categories of one attribute; empty: there are none.
+std::string equal_colours(const Scene& scene);
 
 /// A sentence on an attribute whose numbers are all unknown; empty: there is none. Costs a pass over all spheres that
 /// are coloured by numbers.

@@ -58,6 +58,7 @@ void restyle(LoadedScene& loaded, const Style& style) {
   if (loaded.has_scheme_colours) loaded.scene.spheres.attributes().colour.clear();
   loaded.scene.coloured_by.clear();
   loaded.scene.coloured_by_of_sphere.clear();
+  loaded.scene.legend_names.clear();
   take_default_colours(loaded.scene, loaded.format, &style);
   loaded.scene.spheres.attributes().crease.clear();
   if (style.crease.empty()) return;

@@ -68,6 +68,8 @@ Look look_from_json(const nlohmann::json& value) {
   if (value.contains("radius_scale")) look.actions.emplace_back(ScaleRadius{value.at("radius_scale").get<double>()});
   if (value.contains("outline")) look.actions.emplace_back(SetOutline{value.at("outline").get<double>()});
   if (value.contains("crease")) look.actions.emplace_back(SetCrease{value.at("crease").get<std::string>()});
+  if (value.contains("legend_name"))
+    look.actions.emplace_back(SetLegendName{value.at("legend_name").get<std::string>()});
   if (value.contains("clip"))
     for (const nlohmann::json& clip : value.at("clip")) look.actions.emplace_back(AddClip{clip_from_json(clip)});
   return look;

@@ -76,6 +76,11 @@ Result<LookAction> crease_action(const std::string& value) {
   return LookAction(SetCrease{value});
 }
 
+Result<LookAction> legend_name_action(const std::string& value) {
+  if (value.empty()) return unexpected("a name of at least one character", value);
+  return LookAction(SetLegendName{value});
+}
+
 Result<LookAction> clip_action(const std::string& value) {
   const Result<Clip> clip = clip_from_text(value);
   if (!clip) return clip.error();
@@ -95,6 +100,7 @@ const Names<FromText>& actions() {
       {"radius-scale", radius_scale_action},
       {"outline", outline_action},
       {"crease", crease_action},
+      {"legend-name", legend_name_action},
       {"clip", clip_action}};
   return all;
 }

@@ -23,7 +23,10 @@ class LookedAt {
   explicit LookedAt(const Scene& scene) : scene_(scene) {}
 
   // The mask of the spheres that the present actions are for.
-  void select(std::vector<std::uint8_t> mask) { mask_ = std::move(mask); }
+  void select(std::vector<std::uint8_t> mask) {
+    mask_ = std::move(mask);
+    colours_by_attribute_ = false;
+  }
 
   Status operator()(const SetShown& action) {
     set(shown_, std::uint8_t{1}, std::uint8_t(action.shown ? 1 : 0));
@@ -37,6 +40,7 @@ class LookedAt {
     for (std::size_t i = 0; i < mask_.size(); ++i)
       if (mask_[i] != 0) colours_[i] = *colour;
     set_meaning(-1);
+    colours_by_attribute_ = false;
     return Done{};
   }
 
@@ -47,6 +51,7 @@ class LookedAt {
     if (!done) return done.error();
     set_meaning(static_cast<std::int32_t>(scene_.coloured_by.size() + meanings_.size()));
     meanings_.push_back(*done);
+    colours_by_attribute_ = true;
     return Done{};
   }
 
@@ -93,6 +98,23 @@ class LookedAt {
     return Done{};
   }
 
+  Status operator()(const SetLegendName& action) {
+    if (action.name.empty()) return look_error("a name in the legend has at least one character");
+    if (colours_by_attribute_) {
+      meanings_.back().title = action.name;
+      return Done{};
+    }
+    take_colours();
+    if (!have_one_colour()) {
+      return look_error("a name in the legend stands beside one colour, and these spheres have several",
+                        "colour them first, by a colour or by an attribute");
+    }
+    if (legend_names_.empty()) legend_names_ = scene_.legend_names;
+    set_meaning(-2 - static_cast<std::int32_t>(legend_names_.size()));
+    legend_names_.push_back(action.name);
+    return Done{};
+  }
+
   Status operator()(const AddClip& action) {
     if (Status status = check_clip(action.clip); !status) return status.error();
     if (clips_.empty()) {
@@ -135,6 +157,7 @@ class LookedAt {
       scene.coloured_by.insert(scene.coloured_by.end(), meanings_.begin(), meanings_.end());
       scene.coloured_by_of_sphere = std::move(meaning_of_);
     }
+    if (!legend_names_.empty()) scene.legend_names = std::move(legend_names_);
     if (!shown_.empty()) {
       keep_entries(scene.material_of_sphere, shown_);
       keep_entries(scene.coloured_by_of_sphere, shown_);
@@ -176,6 +199,16 @@ class LookedAt {
   void set_meaning(std::int32_t meaning) {
     if (meaning_of_.empty()) meaning_of_ = scene_.coloured_by_of_sphere;
     set(meaning_of_, std::int32_t{scene_.coloured_by.empty() ? -1 : 0}, meaning);
+  }
+
+  bool have_one_colour() const {
+    const Vec3f* first = nullptr;
+    for (std::size_t i = 0; i < mask_.size(); ++i) {
+      if (mask_[i] == 0) continue;
+      if (first != nullptr && !(colours_[i] == *first)) return false;
+      first = &colours_[i];
+    }
+    return true;
   }
 
   // The current colours: the spheres' own, or those of their materials.
@@ -221,6 +254,8 @@ class LookedAt {
   std::vector<std::int32_t> material_of_;
   std::vector<ColourBy> meanings_;  // after those of the scene
   std::vector<std::int32_t> meaning_of_;
+  std::vector<std::string> legend_names_;  // with those of the scene
+  bool colours_by_attribute_ = false;      // the present look does
   std::vector<double> factors_;
   std::vector<Clip> clips_;  // with those of the scene
   std::vector<std::uint64_t> clips_of_;
@@ -239,12 +274,15 @@ Result<std::vector<std::int64_t>> apply_looks(Scene& scene, const std::vector<Lo
     if (!mask) return mask.error();
     const std::int64_t count = std::count(mask->begin(), mask->end(), std::uint8_t{1});
     looked_at.select(std::move(*mask));
-    for (std::size_t i = 0; i < look.actions.size(); ++i) {
-      const Status status = std::visit(looked_at, look.actions[i]);
-      if (status) continue;
-      if (failed_action != nullptr) *failed_action = i;
-      return status.error();
-    }
+    // Names of colours come after the colours.
+    for (const bool names : {false, true})
+      for (std::size_t i = 0; i < look.actions.size(); ++i) {
+        if (std::holds_alternative<SetLegendName>(look.actions[i]) != names) continue;
+        const Status status = std::visit(looked_at, look.actions[i]);
+        if (status) continue;
+        if (failed_action != nullptr) *failed_action = i;
+        return status.error();
+      }
     counts.push_back(count);
   }
   if (failed != nullptr) *failed = looks.size();

@@ -37,13 +37,18 @@ struct SetOutline {
 struct SetCrease {
   std::string attribute;  ///< a name as selections know it
 };
+/// The name of the spheres' colour in the legend. If the same look colours them by an attribute, the title of its key.
+/// Applied after the look's other actions.
+struct SetLegendName {
+  std::string name;  ///< UTF-8, not empty
+};
 /// One more clip that acts on the spheres.
 struct AddClip {
   Clip clip;
 };
 /// One action on spheres. To add a kind: a struct here, and its case in looks.cpp.
-using LookAction =
-    std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius, SetOutline, SetCrease, AddClip>;
+using LookAction = std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius, SetOutline,
+                                SetCrease, SetLegendName, AddClip>;
 
 /// Actions on the spheres of one selection, done in their order.
 struct Look {

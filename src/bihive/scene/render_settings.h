@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bihive/image/film.h"
+#include "bihive/scene/scene.h"
 #include "bihive/settings/picture_settings.h"
 
 namespace bihive {
@@ -18,12 +19,18 @@ enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 struct RenderSettings : PictureSettings {
   /// Multiplies the widths of outlines and creases, for a preview in another size; 0: none.
   double line_scale = 1;
-  double dots_per_inch = 0;  ///< of the picture in print, for letters and for lines in points; 0: not stated
+  double dots_per_inch = 0;      ///< of the picture in print, for letters and for lines in points; 0: not stated
+  std::optional<Camera> camera;  ///< in place of the scene's: an eye of a stereo picture
   View view = View::shaded;
   /// Only these pixels of the picture are drawn, with the same bits as in the whole picture: at least one, inside it.
   std::optional<Tile> crop;
   int threads = 0;  ///< 0 = as many as the machine runs at once; for the CPU's renderer
 };
+
+/// The camera of the picture as rays see it.
+inline Camera picture_camera(const Scene& scene, const RenderSettings& settings) {
+  return relative_to(settings.camera.value_or(scene.camera), scene.spheres.origin());
+}
 
 /// The drawn pixels of the whole picture.
 inline Tile drawn_pixels(const RenderSettings& settings) {

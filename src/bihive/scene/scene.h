@@ -48,8 +48,10 @@ struct Scene {
   /// The meaning of the spheres' colours, as returned by colour_by(): their elements, types or numbers. Only the legend
   /// depends on it (scene/legend.h).
   std::vector<ColourBy> coloured_by;
-  /// Positions in `coloured_by`, -1: the colour has no meaning. Empty: all have the first, if there is one.
+  /// Positions in `coloured_by`, -1: the colour has no meaning, -2 - n: the name n of `legend_names`. Empty: all have
+  /// the first of `coloured_by`, if there is one.
   std::vector<std::int32_t> coloured_by_of_sphere;
+  std::vector<std::string> legend_names;  ///< of coloured selections
   /// What colour_by() gives elements: linear RGB by atomic number, 0: unknown. Empty: element_colour() (palette.h).
   std::vector<Vec3f> element_colours;
   std::string length_unit;  ///< of the input's format ("Å"); empty: unknown

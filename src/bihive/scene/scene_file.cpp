@@ -88,6 +88,7 @@ class Extraction {
   void take_picture() {
     if (!document_.contains("picture")) return;
     const json& value = document_.at("picture");
+    loaded_.states_fog = value.contains("fog");
     const std::string newer = newer_key(value, document_.at("bihive_scene").get<int>());
     if (!newer.empty()) need_version(2, "/picture/" + newer);
     PictureSettings& picture = loaded_.scene.picture;

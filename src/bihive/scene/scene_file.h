@@ -21,6 +21,7 @@ struct LoadedScene {
   Scene scene;
   bool has_camera = false;          ///< false: the caller places the camera
   bool has_lights = false;          ///< false: the caller places the lights of `rig`
+  bool states_fog = false;          ///< the document itself has fog, or none; else fog is a style's
   bool has_scheme_colours = false;  ///< a style's scheme coloured the spheres, not their file
   LightRig rig;
   std::string format = "scene file";    ///< or "built-in", or a sphere file's format (scene/load_scene.h)

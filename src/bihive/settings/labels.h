@@ -7,7 +7,9 @@
 namespace bihive {
 
 struct Labels {
-  bool legend = false;     ///< the meaning of the colours (scene/legend.h)
+  bool legend = false;  ///< the meaning of the colours (scene/legend.h)
+  /// Above the legend's last bar or list of names, UTF-8; empty: the attribute's name.
+  std::string legend_title = "";
   bool scale_bar = false;  ///< a round length of the world; for orthographic pictures
   bool axes = false;       ///< the directions of x, y and z
   std::string title = "";  ///< UTF-8; empty: none

@@ -16,7 +16,7 @@ using Group = ParameterGroup;
 
 template <class T>
 SettingValue value_of(const T& member) {
-  if constexpr (std::is_same_v<T, std::optional<std::string>>)
+  if constexpr (std::is_same_v<T, std::optional<std::string>> || std::is_same_v<T, std::optional<Vec3d>>)
     return member ? SettingValue(*member) : SettingValue();
   else if constexpr (std::is_same_v<T, double>)
     return std::isinf(member) ? SettingValue() : SettingValue(member);  // no limit
@@ -31,6 +31,8 @@ void put(const SettingValue& value, T& member) {
   const bool is_null = std::holds_alternative<std::monostate>(value);
   if constexpr (std::is_same_v<T, std::optional<std::string>>)
     member = is_null ? std::nullopt : std::optional(std::get<std::string>(value));
+  else if constexpr (std::is_same_v<T, std::optional<Vec3d>>)
+    member = is_null ? std::nullopt : std::optional(std::get<Vec3d>(value));
   else if constexpr (std::is_same_v<T, double>)
     member = is_null ? std::numeric_limits<double>::infinity() : std::get<double>(value);
   else if constexpr (std::is_enum_v<T> || std::is_same_v<T, int>)
@@ -199,6 +201,16 @@ constexpr std::array kRows{
     row<&P::transparent>({.id = "transparent", .path = "transparent", .ranks = ParameterRanks::chunks,
         .has_option = false, .in_window = false,
         .help = "The picture has opacity instead of a background"}),
+    row<&P::matte>({.id = "matte", .kind = colour, .nullable = true, .path = "matte", .report = "matte",
+        .ranks = ParameterRanks::chunks, .in_window = false, .value_name = "COLOUR",
+        .help = "With a transparent background: the colour that will lie behind the picture, to which edges, fog and letters are fitted"}),
+    row<&P::stereo, &Stereo::form>({.id = "stereo", .kind = choice, .names = "none|side|cross|anaglyph",
+        .path = "stereo", .report = "stereo", .in_window = false, .cpu_only = true,
+        .help = "Views of both eyes: next to each other, the same for crossed eyes, or red and cyan", .usual = "none"}),
+    row<&P::stereo, &Stereo::eye_distance>({.id = "eye_distance", .kind = number, .least = 0, .most = kMostEyeDistance,
+        .above_least = true, .path = "eye_distance", .report = "eye_distance", .in_window = false, .cpu_only = true,
+        .value_name = "F",
+        .help = "Of stereo pictures: the distance between the eyes as a share of that to the camera's target", .usual = "1/30"}),
     row<&P::tone, &Tone::exposure_stops>({.id = "exposure", .kind = number, .least = -kMostExposureStops,
         .most = kMostExposureStops, .path = "exposure", .report = "exposure", .ranks = ParameterRanks::chunks,
         .value_name = "EV",
@@ -217,6 +229,10 @@ constexpr std::array kRows{
         .ranks = ParameterRanks::whole,
         .help = "Legend of the colours: a colour bar, or names", .group = Group::labels, .label = "legend",
         .long_label = "legend of the colours"}),
+    row<&P::labels, &Labels::legend_title>({.id = "legend_title", .kind = text, .path = "legend_title",
+        .report = "labels.legend_title", .ranks = ParameterRanks::whole, .value_name = "TEXT",
+        .help = "Title of the legend's colour bar or names, with its unit", .usual = "the attribute's name",
+        .group = Group::labels, .label = "legend title", .empty_means = "the attribute's name", .only_with = "legend"}),
     row<&P::labels, &Labels::axes>({.id = "axes", .path = "axes", .report = "labels.axes",
         .ranks = ParameterRanks::chunks,
         .help = "Show the directions of x, y and z", .group = Group::labels, .label = "axes"}),

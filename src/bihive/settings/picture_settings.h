@@ -9,6 +9,7 @@
 #include "bihive/settings/labels.h"
 #include "bihive/settings/opacity_rule.h"
 #include "bihive/settings/picture_effects.h"
+#include "bihive/settings/stereo.h"
 
 namespace bihive {
 
@@ -45,6 +46,10 @@ struct PictureSettings {
   /// The picture has opacity instead of a background: samples that hit nothing add no light to their pixel. Reflected
   /// and transmitted rays still see the background. Not for View::traversal and View::tree.
   bool transparent = false;
+  /// Linear; of a transparent picture: the colour that will lie behind it. It takes the place of the background, and
+  /// programs that mix the values of the screen show the picture with this background (image/png_pixels.h).
+  std::optional<Vec3d> matte;
+  Stereo stereo;
   /// View::shaded: applies to the light of all samples that hit something, before outlines and fog. So the background
   /// and the colours of outlines and fog appear unchanged.
   Tone tone;

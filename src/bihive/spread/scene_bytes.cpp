@@ -112,7 +112,7 @@ void transfer(A& archive, ColourMap& map) {
 }
 template <class A>
 void transfer(A& archive, ColourBy& by) {
-  all(archive, by.attribute, by.map, by.range, by.logarithmic, by.nan_colour);
+  all(archive, by.attribute, by.map, by.range, by.logarithmic, by.nan_colour, by.title);
 }
 // Rows of members come before the row that says whether their object is present.
 template <class A>
@@ -155,8 +155,8 @@ void transfer(A& archive, Scene& scene) {
   if (A::kTakes) scene.spheres = SphereSet::from_stored({}, exponent, origin);
   SphereAttributes& attributes = scene.spheres.attributes();
   all(archive, scene.spheres.cell(), attributes.numbers, attributes.texts, scene.materials, scene.size_of_input,
-      scene.coloured_by, scene.length_unit, scene.lights, scene.plane, scene.clips, scene.camera, scene.background,
-      scene.ambient_light, scene.picture, scene.name, scene.seed);
+      scene.coloured_by, scene.legend_names, scene.length_unit, scene.lights, scene.plane, scene.clips, scene.camera,
+      scene.background, scene.ambient_light, scene.picture, scene.name, scene.seed);
 }
 
 }  // namespace

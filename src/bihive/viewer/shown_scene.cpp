@@ -26,6 +26,7 @@ ShownScene::ShownScene(LoadedScene loaded)
 
 Camera ShownScene::framed(ViewFrom side, const Camera& like, const ViewerSettings& settings, PictureSizePx size) const {
   RenderSettings picture = settings_from(settings.picture.result());
+  picture.stereo = {};
   picture.width_px = size.width;
   picture.height_px = size.height;
   picture.view = settings.view;

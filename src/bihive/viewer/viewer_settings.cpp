@@ -49,6 +49,7 @@ RenderSettings render_settings(const ViewerSettings& settings, int width_px, int
   const bool gpu = settings.engine == ViewerEngine::gpu;
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   RenderSettings picture = settings_from(settings.picture.result());
+  picture.stereo = {};
   picture.adaptive_samples = draws_adaptive_samples(settings);
   if (of_tree) picture.transparent = false;
   picture.width_px = width_px;

@@ -15,13 +15,14 @@ constexpr double kNearestShare = 0x1p-20;
 
 }  // namespace
 
-CellEdges::CellEdges(const Scene& scene, const std::optional<CellLines>& lines, int width_px, int height_px)
-    : parallel_(scene.camera.projection == Projection::orthographic) {
+CellEdges::CellEdges(const Scene& scene, const Camera& camera, const std::optional<CellLines>& lines, int width_px,
+                     int height_px)
+    : parallel_(camera.projection == Projection::orthographic) {
   if (!lines || !scene.spheres.cell()) return;
   lines_ = *lines;
   opacity_ = std::min(lines_.width_px, 1.0);
   lines_.width_px = std::max(lines_.width_px, 1.0);
-  const PixelPlaces places(local_camera(scene), width_px, height_px);
+  const PixelPlaces places(camera, width_px, height_px);
   const Cell& cell = *scene.spheres.cell();
   const Vec3d origin = scene.spheres.to_local(cell.origin);
   const Images& images = scene.spheres.images();

@@ -21,7 +21,8 @@ class CellEdges {
   /// Without lines or without a cell there are no edges. The lines of a replicated set run along all of its copies; if
   /// they are more than 10,000, there are those of the box around all copies alone.
   /// `lines`: with its width in pixels. Below one pixel, edges are a pixel wide and fainter: see opacity().
-  CellEdges(const Scene& scene, const std::optional<CellLines>& lines, int width_px, int height_px);
+  CellEdges(const Scene& scene, const Camera& camera, const std::optional<CellLines>& lines, int width_px,
+            int height_px);
 
   bool any() const { return !edges_.empty(); }
   Vec3d colour() const { return lines_.colour; }

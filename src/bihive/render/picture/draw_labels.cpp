@@ -6,6 +6,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/image/font.h"
 #include "bihive/render/picture/labels/parts.h"
+#include "bihive/render/stereo.h"
 #include "bihive/scene/legend.h"
 
 namespace bihive {
@@ -13,7 +14,7 @@ namespace {
 
 // What a reader sees behind the picture: the background, or a white page.
 Vec3d paper_of(const Scene& scene, const RenderSettings& settings) {
-  if (settings.transparent) return {1, 1, 1};
+  if (settings.transparent && !settings.matte) return {1, 1, 1};
   if (settings.view != View::shaded) return screen_colour(scene.background, Transfer::none);
   return screen_colour(scene.background, scene.picture.transfer);
 }
@@ -33,7 +34,7 @@ void draw_with(Pens& pens, const Scene& scene, const Camera& camera, const Rende
                                                   length_of_pixel(camera, settings.width_px, settings.height_px),
                                                   labels.length_unit.value_or(scene.length_unit));
   if (labels.axes) draw_axes(pens.axes, camera);
-  if (labels.legend) draw_legend(pens.legend, legend_of(scene), top, settings.height_px - bottom);
+  if (labels.legend) draw_legend(pens.legend, legend_of(scene, labels), top, settings.height_px - bottom);
 }
 
 }  // namespace
@@ -54,10 +55,10 @@ Status check_labels(const Scene& scene, const Camera& camera, const RenderSettin
   if (labels.legend && settings.view != View::shaded)
     return Error{"the legend explains the colours of spheres, which this view does not show", "", 0, 0,
                  "choose the view shaded"};
-  const bool has_meaning =
-      !scene.coloured_by.empty() && (scene.coloured_by_of_sphere.empty() ||
-                                     std::any_of(scene.coloured_by_of_sphere.begin(), scene.coloured_by_of_sphere.end(),
-                                                 [](std::int32_t meaning) { return meaning >= 0; }));
+  const std::vector<std::int32_t>& meanings = scene.coloured_by_of_sphere;
+  const bool has_meaning = meanings.empty() ? !scene.coloured_by.empty()
+                                            : std::any_of(meanings.begin(), meanings.end(),
+                                                          [](std::int32_t meaning) { return meaning != -1; });
   if (labels.legend && !has_meaning)
     return Error{"the colours of these spheres have no meaning that a legend could explain", "", 0, 0,
                  "colour them by an attribute: " + setting_name("colour_by") + " z"};
@@ -80,7 +81,7 @@ std::vector<std::string> missing_letters(const Scene& scene, const Labels& label
   if (!labels.title.empty()) texts.emplace_back("the title", labels.title);
   if (labels.scale_bar && labels.length_unit) texts.emplace_back("the scale bar", *labels.length_unit);
   if (labels.legend)
-    for (const LegendKey& key : legend_of(scene)) {
+    for (const LegendKey& key : legend_of(scene, labels)) {
       texts.emplace_back("the legend", key.title);
       for (const LegendEntry& entry : key.entries) texts.emplace_back("the legend", entry.name);
     }
@@ -116,13 +117,29 @@ LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSet
   return {found(title), found(legend), found(scale_bar), found(axes)};
 }
 
-void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings) {
-  if (!settings.labels.any()) return;
+namespace {
+
+// `part`: the pixels of the picture that `pixels` holds.
+void draw_labels_of_view(PngPixels& pixels, const Tile& part, const Scene& scene, const RenderSettings& settings) {
   const double em = em_of_picture(settings.width_px, settings.height_px, settings.dots_per_inch);
-  const LabelPen pen(pixels, drawn_pixels(settings), settings.width_px, settings.height_px, em,
-                     paper_of(scene, settings));
+  const LabelPen pen(pixels, part, settings.width_px, settings.height_px, em, paper_of(scene, settings));
   Pens pens{pen, pen, pen, pen};
   draw_with(pens, scene, scene.camera, settings);
+}
+
+}  // namespace
+
+void draw_labels(PngPixels& pixels, const Scene& scene, const RenderSettings& settings) {
+  if (!settings.labels.any()) return;
+  if (settings.stereo.form != StereoForm::none) {
+    // In each view at the same place: labels lie in the plane of the screen.
+    const RenderSettings view = one_view(settings);
+    const Tile drawn = drawn_pixels(settings);
+    for (int left = 0; left < settings.width_px; left += view.width_px)
+      draw_labels_of_view(pixels, {drawn.x0 - left, drawn.y0, drawn.x1 - left, drawn.y1}, scene, view);
+    return;
+  }
+  draw_labels_of_view(pixels, drawn_pixels(settings), scene, settings);
 }
 
 }  // namespace bihive

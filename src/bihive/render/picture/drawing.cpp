@@ -95,7 +95,7 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
   const Tile drawn = drawn_pixels(settings);
   BIHIVE_CHECK(drawn.x0 >= 0 && drawn.x0 < drawn.x1 && drawn.x1 <= settings.width_px);
   BIHIVE_CHECK(drawn.y0 >= 0 && drawn.y0 < drawn.y1 && drawn.y1 <= settings.height_px);
-  if (Status status = check_camera(scene.camera); !status) return status.error();
+  if (Status status = check_camera(settings.camera.value_or(scene.camera)); !status) return status.error();
   const bool of_tree = settings.view == View::traversal || settings.view == View::tree;
   if (of_tree && scene.spheres.has_images())
     return Error{"this view shows the tree of the stored spheres, and the set has copies", "", 0, 0,
@@ -140,7 +140,7 @@ Drawing::Drawing(const Scene& scene, const Tracer& tracer, const RenderSettings&
       settings_(settings),
       progress_(progress),
       cancel_(cancel),
-      rays_(local_camera(scene), settings.width_px, settings.height_px),
+      rays_(picture_camera(scene, settings), settings.width_px, settings.height_px),
       transparency_(std::move(transparency)),
       wave_scene_(scene, transparency_.to_eye ? OpacityRule::once : OpacityRule::each_surface),
       post_processing_(scene, wave_scene_, tracer, settings, rays_, &transparency_),

@@ -40,7 +40,8 @@ PostProcessing::PostProcessing(const Scene& scene, const WaveScene& wave_scene, 
       tracer_(tracer),
       rays_(rays),
       transparency_(transparency),
-      cell_edges_(scene, cell_lines_of(scene, settings), settings.width_px, settings.height_px) {
+      cell_edges_(scene, picture_camera(scene, settings), cell_lines_of(scene, settings), settings.width_px,
+                  settings.height_px) {
   if (settings.view != View::shaded) return;
   outline_ = settings.outline;
   all_outlined_ = settings.outline.has_value();

@@ -8,6 +8,7 @@
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "bihive/render/picture/drawing.h"
+#include "bihive/render/stereo.h"
 
 namespace bihive {
 namespace {
@@ -42,6 +43,7 @@ Result<RenderedBands> draw(const Scene& scene, const Tracer& tracer, const Rende
 
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress, const CancelToken* cancel, Film film) {
+  if (settings.stereo.form != StereoForm::none) return render_stereo(scene, tracer, settings, progress, cancel);
   Rendered whole;
   std::optional<Tile> rest = drawn_pixels(settings);
   const auto next = [&] { return std::exchange(rest, std::nullopt); };
@@ -56,14 +58,14 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
   return whole;
 }
 
-bool is_drawn_whole(View view) {
-  return view == View::tree || view == View::distance;
+bool is_drawn_whole(const RenderSettings& settings) {
+  return settings.view == View::tree || settings.view == View::distance || settings.stereo.form != StereoForm::none;
 }
 
 Result<RenderedBands> render_parts(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                    const NextPart& next, const BandCallback& take, const ProgressCallback& progress,
                                    const CancelToken* cancel) {
-  BIHIVE_CHECK(!is_drawn_whole(settings.view));
+  BIHIVE_CHECK(!is_drawn_whole(settings));
   return draw(scene, tracer, settings, next, take, progress, cancel);
 }
 
@@ -72,7 +74,13 @@ Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, 
                                       const CancelToken* cancel) {
   BIHIVE_CHECK(band_rows >= 1);
   const Tile all = drawn_pixels(settings);
-  const int rows = is_drawn_whole(settings.view) ? all.height() : band_rows;
+  if (settings.stereo.form != StereoForm::none) {
+    const Result<Rendered> whole = render_stereo(scene, tracer, settings, progress, cancel);
+    if (!whole) return whole.error();
+    if (Status status = take(whole->film, all); !status) return status.error();
+    return RenderedBands{whole->rays, whole->render_ms};
+  }
+  const int rows = is_drawn_whole(settings) ? all.height() : band_rows;
 
   // The share of the picture above the band, and that of the band.
   double above = 0;

@@ -30,10 +30,11 @@ struct PreparedKey {
   LegendKey key;
   std::vector<Tick> ticks;
 
+  double title_height() const { return key.title.empty() ? 0 : kTitleHeight; }
   double height() const {
     const double rows = static_cast<double>(key.entries.size()) * kRowHeight;
     const double gap = key.scale && !key.entries.empty() ? kGap : 0;
-    return kTitleHeight + (key.scale ? kBarHeight + kGap : 0) + gap + rows;
+    return title_height() + (key.scale ? kBarHeight + kGap : 0) + gap + rows;
   }
   double width() const {
     double widest = text_width(key.title, 1);
@@ -128,8 +129,8 @@ void draw_entry(LabelPen& pen, const LegendEntry& entry, double x, double y) {
 
 void draw_key(LabelPen& pen, const PreparedKey& ready, double x, double y) {
   const double em = pen.em();
-  pen.write(ready.key.title, {x, y + kAscent * em}, 1);
-  y += kTitleHeight * em;
+  if (!ready.key.title.empty()) pen.write(ready.key.title, {x, y + kAscent * em}, 1);
+  y += ready.title_height() * em;
   if (ready.key.scale) {
     draw_bar(pen, ready, x, y);
     y += (kBarHeight + 2 * kGap) * em;
