@@ -14,8 +14,8 @@
 namespace bihive::thesis {
 namespace {
 
-// A claim with more findings than this shows how many hold.
-constexpr std::size_t kListed = 4;
+// A claim with more findings than this shows how many hold; a map shows this many members, the extreme one first.
+constexpr std::size_t kListed = 5, kMembers = 3;
 
 // Verdicts, from the best to the worst.
 constexpr const char *kAgrees = "agrees", *kUndecided = "undecided", *kInconsistent = "text_inconsistent",
@@ -51,25 +51,41 @@ std::string number_text(double value, const Json& entry) {
   return fmt::format("{:.4g}", value);
 }
 
+// Keys of a map, the largest member first.
+std::vector<std::string> by_size(const Json& map) {
+  std::vector<std::pair<double, std::string>> members;
+  for (const auto& [key, value] : map.items()) members.emplace_back(-measured(value)->middle, key);
+  std::sort(members.begin(), members.end());
+  std::vector<std::string> keys;
+  for (auto& [size, key] : members) keys.push_back(std::move(key));
+  return keys;
+}
+
 std::string text_of(const Json& quantity, const Json& entry) {
-  const std::string unit = entry.value("unit", ""), prefix = entry.value("prefix", "");
+  const std::string unit = entry.value("unit", ""), prefix = entry.value("prefix", ""), is = entry.value("is", "");
   const auto number = [&](const Json& of) { return number_text(of.get<double>(), entry); };
-  if (quantity.is_string()) return quantity;
+  if (entry.contains("zero") && quantity.is_number() && quantity == 0) return entry["zero"];
+  if (quantity.is_string()) return prefix + quantity.get<std::string>() + unit;
   if (quantity.is_number()) return prefix + number(quantity) + unit;
-  if (quantity.is_array() && entry.value("is", "") == "inside")
-    return number(quantity[0]) + " to " + number(quantity[1]);
+  if (quantity.is_array() && is == "inside") return number(quantity[0]) + " to " + number(quantity[1]);
   if (quantity.contains("median"))
-    return fmt::format("{}{} ({} to {})", number(quantity["median"]), unit, number(quantity["lower"]),
+    return fmt::format("{}{}{} ({} to {})", prefix, number(quantity["median"]), unit, number(quantity["lower"]),
                        number(quantity["upper"]));
   if (quantity.contains("mean")) {
     const double sd = quantity["sd"];
     return number(quantity["mean"]) + (sd > 0 ? fmt::format(" ± {:.2g}", sd) : "") + unit;
   }
   std::vector<std::string> parts;
-  for (const auto& [key, part] : quantity.items())
-    parts.push_back((quantity.is_array() ? "" : entry.value("key", "Scenario ") + key + ": ") + text_of(part, entry));
-  const std::string list = fmt::format("{}", fmt::join(parts, ", "));
-  return quantity.is_array() ? "(" + list + ")" : list;
+  if (quantity.is_array()) {
+    for (const Json& part : quantity) parts.push_back(number(part));
+    return fmt::format("{}({}){}", prefix, fmt::join(parts, ", "), unit);
+  }
+  std::vector<std::string> keys = by_size(quantity);
+  if (is == "lowest") std::reverse(keys.begin(), keys.end());
+  keys.resize(std::min(keys.size(), kMembers));
+  for (const std::string& key : keys)
+    parts.push_back(entry.value("key", "Scenario ") + key + ": " + text_of(quantity[key], entry));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 const char* verdict_if(bool agrees) {
@@ -90,15 +106,6 @@ const char* extreme(const Json& map, const std::string& stated, bool highest) {
     if (!ahead) verdict = kUndecided;
   }
   return verdict;
-}
-
-std::vector<std::string> by_size(const Json& map) {
-  std::vector<std::pair<double, std::string>> members;
-  for (const auto& [key, value] : map.items()) members.emplace_back(-measured(value)->middle, key);
-  std::sort(members.begin(), members.end());
-  std::vector<std::string> keys;
-  for (auto& [size, key] : members) keys.push_back(std::move(key));
-  return keys;
 }
 
 std::vector<std::string> keys_in(const Json& value) {
@@ -184,12 +191,15 @@ void conclude(Json& claim, const std::vector<Json>& findings, const Json& entrie
     ours.push_back((each["row"] == "" ? "" : each["row"].get<std::string>() + ": ") + each["ours"].get<std::string>());
   const auto holding =
       std::count_if(findings.begin(), findings.end(), [](const Json& each) { return rank(each) == 0; });
-  std::string found = findings.size() > kListed ? fmt::format("{} of {}", holding, findings.size())
-                                                : fmt::format("{}", fmt::join(ours, "; "));
+  const bool all = holding == static_cast<std::ptrdiff_t>(findings.size());
+  std::string found = findings.size() <= kListed ? fmt::format("{}", fmt::join(ours, "; "))
+                      : all                      ? fmt::format("All {} agree", holding)
+                                                 : fmt::format("{} of {} agree", holding, findings.size());
   for (const char* const more : {"note", "reason"}) {
     std::string text;
     for (const Json& entry : entries) text = entry.value(more, text);
     if (!text.empty() && (more == std::string("note") || rank(worst) > 0)) found += ". " + text;
+    claim["why"] = text;  // the reason, which is the last
   }
   claim["found"] = found;
 }
@@ -244,7 +254,16 @@ Json claims_of(const Experiment& experiment) {
     std::vector<Json> findings;
     std::copy_if(experiment.findings.begin(), experiment.findings.end(), std::back_inserter(findings),
                  [&name = claim](const Json& finding) { return finding["claim"] == name; });
-    conclude(begin(entries.front(), "not_run", ""), findings, entries);
+    Json& one = begin(entries.front(), "not_run", "");
+    conclude(one, findings, entries);
+    // Gains in percent are told with the costs of a ray's steps that make them.
+    const std::string where = experiment.data.value(Json::json_pointer("/claims_at_costs/where"), "");
+    const Json& entry = entries.front();
+    const std::string unit = entry.value("unit", "");
+    const bool gain = unit.starts_with(" %") || unit.starts_with(" percent");
+    if (!entry.value("of", "").starts_with("at.text.") || where.empty() || !gain) continue;
+    const std::string found = one["found"];
+    one["found"] = found + (found.ends_with('.') ? " At " : ". At ") + where + ".";
   }
   for (const Json& remark : experiment.values.document().value("remarks", Json::array()))
     begin(remark, remark["verdict"], remark["reason"]);

@@ -47,7 +47,8 @@ Json gains_of(const std::vector<Contestant>& best) {
 
 Json quantities_at(const FigureWork& work, const WinPattern& pattern, const StepCosts& costs, const Values& values) {
   Json found = Json::object();
-  std::vector<Contestant> best, all;  // per configuration; all except trees of one leaf
+  std::vector<Contestant> best, all,
+      bars;  // per configuration; all except trees of one leaf; those in the text's charts
   std::vector<double> over_brute, one_leaf_over_brute;
   std::map<std::int64_t, std::vector<Contestant>> best_of_scenario;
   for (const auto& [configuration, trees] : work) {
@@ -65,6 +66,7 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
       else
         all.push_back(tree);
     }
+    bars.insert(bars.end(), named.begin(), named.end());
     const std::string name = fmt::format("scenario{}_spheres{}", configuration.first, spheres);
     Contestant& winner = best.emplace_back(*std::min_element(named.begin(), named.end(), cheaper));
     winner.gain_percent = 100 * (brute.cost / winner.cost - 1);
@@ -74,7 +76,8 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
     found["sweet_spot"][name] = std::min_element(any.begin(), any.end(), cheaper)->max_prims;
   }
   found["wins"] = wins_of(work, pattern, costs);
-  found["best"] = std::min_element(best.begin(), best.end(), cheaper)->words();
+  const Contestant& fastest = *std::min_element(best.begin(), best.end(), cheaper);
+  found["best"] = fmt::format("{}, Scenario {}", fastest.words(), fastest.configuration.first);
   const Contestant worst = *std::max_element(all.begin(), all.end(), cheaper);
   found["worst_by_brute_force"] = worst.max_prims == 0 ? worst.configuration.second : 0;
   const auto [least, most] = std::minmax_element(one_leaf_over_brute.begin(), one_leaf_over_brute.end());
@@ -87,6 +90,9 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
     const auto tree = trees->second.find(values.integer(name + ".max_prims"));
     return tree == trees->second.end() ? 0.0 : costs.of(tree->second);
   };
+  if (const double stated = cost_of("best"); stated > 0)
+    found["above_the_best"] =
+        std::count_if(bars.begin(), bars.end(), [stated](const Contestant& bar) { return bar.cost < stated; });
   if (cost_of("supposed_best") > 0) found["beyond_the_display"] = cost_of("best") / cost_of("supposed_best");
   std::map<std::int64_t, Json> gains;
   for (const auto& [scenario, trees] : best_of_scenario) {

@@ -22,8 +22,9 @@ constexpr int kQuickStride = 4, kOtherStride = 4, kQuickOtherStride = 8;
 constexpr std::uint64_t kSeeds = 60, kQuickSeeds = 5;
 // Rows of the table: a leaf in inner nodes.
 constexpr double kLeafCosts[] = {0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 1};
-// Costs of an inner node at which the claims are tested, across the range in which the pattern holds.
-constexpr int kTries = 41;
+// Costs at which the claims are tested: of an inner node, across the range in which the pattern holds; the fixed part.
+constexpr int kTries = 21;
+constexpr double kFixedCosts[] = {0, 0.5, 1, 1.5, 2, 3};
 
 // The names of steps.
 std::string step_of(const char* what, std::int64_t scenario) {
@@ -74,6 +75,11 @@ std::string ranges_text(const std::vector<CostRange>& ranges) {
                                                 ? fmt::format("{:.2f} or more", range.low)
                                                 : fmt::format("{:.2f} to {:.2f}", range.low, range.high));
   return text.empty() ? "nowhere" : text;
+}
+
+std::string costs_text(const StepCosts& costs) {
+  return fmt::format("{:.2f} sphere tests for an inner node, {:.3g} inner nodes for a leaf and {:.3g} tests for a ray",
+                     costs.inner, costs.leaf, costs.fixed);
 }
 
 class FigureData {
@@ -145,12 +151,14 @@ class FigureData {
     const std::string name = program.name + std::string(software ? " in software, no graphics processor" : "");
     Json row{{"key", program.key}, {"name", name}, {"gpu", gpu}, {"software", software}};
     for (const auto& [cost, value] : fitted.named()) row[cost] = value;
+    row["leaf_at_bound"] = fitted.leaf_ns == 0;
+    data_["rates"].back()["costs"] = costs_text(fitted.costs());
     row.update({{"rms_percent", 100 * fitted.rms},
                 {"frames", fitted.frames},
                 {"wins", wins_of(work_, pattern_, fitted.costs())}});
     if (!gpu.empty()) row["one_sphere_ms"] = median(last.at("one_sphere_ms").get<std::vector<double>>());
     data_["fits"].push_back(std::move(row));
-    fits_.push_back({program.key, name, fitted});
+    fits_.push_back({program.key, name, fitted, software});
   }
 
   // Frames per second, without verdicts, and the thesis program's as charts like the text's.
@@ -176,7 +184,8 @@ class FigureData {
 
   void add_diagram() const {
     CostDiagram diagram = cost_diagram(work_, pattern_, seeds_);
-    for (const auto& [key, name, fitted] : fits_) diagram.points.push_back({name.substr(0, name.find(',')), fitted});
+    for (const auto& [key, name, fitted, software] : fits_)
+      diagram.points.push_back({name.substr(0, name.find(',')), fitted});
     write("costs.svg", cost_diagram_svg(diagram));
     write("costs.csv", cost_diagram_csv(diagram));
     const Json numbers = {{"inner_node_per_sphere_test", diagram.inner},
@@ -192,11 +201,16 @@ class FigureData {
   }
 
   void add_leaf_costs() {
+    Json fails;  // the first of the largest costs of a leaf, at which the pattern holds nowhere
     for (const double leaf : kLeafCosts) {
       const WinsByCost found = wins_by_cost(work_, pattern_, leaf);
       const auto with = std::count_if(seeds_.begin(), seeds_.end(), [&](const FigureWork& seed) {
         return !wins_by_cost(seed, pattern_, leaf).pattern.empty();
       });
+      if (!found.pattern.empty())
+        fails = nullptr;
+      else if (fails.is_null())
+        fails = {{"leaf", leaf}, {"most", found.most}};
       Json ranges = Json::array();
       for (const CostRange& range : found.pattern)
         ranges.push_back({range.low, std::isinf(range.high) ? Json() : Json(range.high)});
@@ -212,7 +226,8 @@ class FigureData {
     data_["possible"] = {{"wins", same_number && !free.stated.empty() ? pattern_.wins : free.most},
                          {"where", ranges_text(free.stated)},
                          {"pattern", ranges_text(free.pattern)},
-                         {"most", free.most}};
+                         {"most", free.most},
+                         {"fails", fails}};
   }
 
   void add_variations() {
@@ -236,20 +251,35 @@ class FigureData {
                          [](const Json& each) { return each["verdict"] == "agrees"; });
   }
 
-  // The asked costs; else the costs within the pattern that suit most of the text's claims, the lowest of equal ones.
+  // The largest factor between the speed-ups that the text states and those at these costs.
+  double gain_factor(const Json& quantities) const {
+    double most = 1;
+    for (const auto& [scenario, gains] : quantities["gain"].items())
+      for (const auto& [ours, name] : {std::pair{"most", "best"}, {"least", "least"}, {"mean", "mean"}})
+        if (const std::string stated = scenario + ".gain_percent." + name; values_.has(stated)) {
+          const double ratio = (100 + gains[ours].get<double>()) / (100 + values_.number(stated));
+          most = std::max({most, ratio, 1 / ratio});
+        }
+    return most;
+  }
+
+  // The asked costs; else, of those that are tried, the costs within the pattern that suit most of the text's claims;
+  // of equal ones those whose gains are the nearest.
   std::optional<StepCosts> chosen_costs() const {
     const std::vector<double>& asked = experiment_.settings.costs;
     if (asked.size() == 3) return StepCosts{asked[0], asked[1], asked[2]};
     std::optional<StepCosts> best;
-    std::int64_t most = -1;
+    std::pair<std::int64_t, double> most{-1, 0};
     for (const CostRange& range : wins_by_cost(work_, pattern_, 0).pattern)
-      for (int i = 0; i < kTries && std::isfinite(range.high); ++i) {
-        const StepCosts costs{range.low + (range.high - range.low) * (i + 0.5) / kTries, 0, 1};
-        const std::int64_t agree = agreeing(findings_at(quantities_at(work_, pattern_, costs, values_)));
-        if (agree <= most) continue;
-        best = costs;
-        most = agree;
-      }
+      for (int i = 0; i < kTries && std::isfinite(range.high); ++i)
+        for (const double fixed : kFixedCosts) {
+          const StepCosts costs{range.low + (range.high - range.low) * (i + 0.5) / kTries, 0, fixed};
+          const Json at = quantities_at(work_, pattern_, costs, values_);
+          const std::pair suits{agreeing(findings_at(at)), -gain_factor(at)};
+          if (suits <= most) continue;
+          best = costs;
+          most = suits;
+        }
     return best;
   }
 
@@ -264,8 +294,9 @@ class FigureData {
       row.update(words_of(row));
       row["elsewhere"] = Json::array();
     }
-    for (const auto& [key, name, fitted] : fits_) {
-      programs.push_back(name);
+    for (const auto& [key, name, fitted, software] : fits_) {
+      if (software) continue;  // no verdict
+      programs.push_back({{"name", name}, {"costs", costs_text(fitted.costs())}});
       data_["at"][key] = quantities_at(work_, pattern_, fitted.costs(), values_);
       const Json there = findings_at(data_["at"][key]);
       for (std::size_t i = 0; i < there.size(); ++i)
@@ -273,6 +304,7 @@ class FigureData {
     }
     data_["claims_at_costs"] = {{"inner", costs->inner},           {"leaf", costs->leaf},
                                 {"fixed", costs->fixed},           {"asked", !experiment_.settings.costs.empty()},
+                                {"where", costs_text(*costs)},     {"gain_factor", gain_factor(data_["at"]["text"])},
                                 {"agree", agreeing(findings)},     {"all", rows.size()},
                                 {"programs", std::move(programs)}, {"rows", std::move(rows)}};
   }
@@ -323,6 +355,7 @@ class FigureData {
   struct Fit {
     std::string key, name;
     FittedCosts costs;
+    bool software;
   };
 
   const Experiment& experiment_;

@@ -106,6 +106,13 @@ void print_summary(const Report& report, const std::string& file) {
   for (const Experiment& part : report.parts)
     if (const std::size_t missing = part.missing_steps().size(); missing > 0)
       print(fmt::format("{}: {} steps missing\n", part.id, missing));
+  // At asked costs the claims themselves are wanted.
+  for (const Experiment& part : report.parts)
+    if (!report.settings.costs.empty() && part.data.contains("claims_at_costs"))
+      for (const Json& row : part.data["claims_at_costs"]["rows"]) {
+        const std::string claim = row["claim"], of = row["row"], ours = row["ours"], words = row["words"];
+        print(escaped(fmt::format("{}: {}{}{}: {}", words, claim, of.empty() ? "" : ", ", of, ours)) + "\n");
+      }
   print("Claims: " + summary_of(report) + ".\n");
   if (!report.against.is_null())
     print(fmt::format("Beside {}: {} findings are as they were, {} have another verdict, {} another value.\n",

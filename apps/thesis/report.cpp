@@ -38,7 +38,7 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
 }
 
-// JSON as Mustache sees it. An object of objects is also there as a list, in its order.
+// JSON as Mustache sees it: an empty text is false. An object of objects is also there as a list, in its order.
 Data data_from(const Json& json) {
   if (json.is_object()) {
     Data object{Data::type::object};
@@ -62,7 +62,7 @@ Data data_from(const Json& json) {
     for (const Json& one : json) list.push_back(data_from(one));
     return list;
   }
-  if (json.is_string()) return json.get<std::string>();
+  if (json.is_string() && json != "") return json.get<std::string>();
   if (json.is_boolean()) return json.get<bool>() ? Data::type::bool_true : Data::type::bool_false;
   if (json.is_number_float()) return fmt::format("{}", json.get<double>());
   if (json.is_number()) return json.dump();
@@ -161,8 +161,12 @@ std::string report_html(const Report& report, const std::string& folder) {
   for (const auto& [letter, title] : kSections) {
     Json rows = Json::array();
     for (const Experiment& part : report.parts)
-      for (const Json& claim : part.claims)
-        if (claim["section"] == letter) rows.push_back(claim);
+      for (const Json& claim : part.claims) {
+        if (claim["section"] != letter) continue;
+        rows.push_back(claim);
+        if (claim["css_class"] == "unlike" || claim["css_class"] == "differs")
+          view["not_found"]["rows"].push_back(claim);
+      }
     if (!rows.empty()) view["sections"].push_back({{"letter", letter}, {"title", title}, {"rows", std::move(rows)}});
   }
   for (const Experiment& part : report.parts) {

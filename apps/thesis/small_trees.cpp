@@ -73,7 +73,7 @@ std::optional<SmallTree> draw_traversal(const Experiment& experiment, const std:
 // Counts colours in the picture, as shares of its pixels, and returns its smallest green above 0, which is that of one
 // gap.
 Json seen_in(const SmallTree& tree, double& green_step) {
-  std::int64_t green = 0, blue = 0, bright = 0, saturated = 0, gaps = 0, visits = 0;
+  std::int64_t green = 0, blue = 0, bright = 0, gaps = 0, visits = 0;
   int smallest = 0;
   for (std::size_t i = 0; i < tree.rays.size(); ++i) {
     const CountingObserver& ray = tree.rays[i];
@@ -81,7 +81,6 @@ Json seen_in(const SmallTree& tree, double& green_step) {
     green += g > b;
     blue += b > 0 && b >= g;
     bright += ray.empty_gaps >= 2;
-    saturated += g == 255 || b == 255;
     gaps += ray.empty_gaps;
     visits += ray.node_visits + ray.leaf_visits;
     if (g > 0 && (smallest == 0 || g < smallest)) smallest = g;
@@ -93,7 +92,6 @@ Json seen_in(const SmallTree& tree, double& green_step) {
   return {{"green_percent", 100 * per_ray(green)},
           {"blue_percent", 100 * per_ray(blue)},
           {"several_gaps_percent", 100 * per_ray(bright)},
-          {"saturated_percent", 100 * per_ray(saturated)},
           {"gaps_per_ray", per_ray(gaps)},
           {"nodes_per_ray", per_ray(visits)}};
 }
@@ -141,8 +139,8 @@ Json compare(const Experiment& experiment, const std::string& first, const std::
   if (!one || !other) return {};
   const Tree &a = *one->tracer.tree(), &b = *other->tracer.tree();
   return {{"nodes", a.nodes.size()},
-          {"different_nodes", differences(a.nodes, b.nodes, same_node)},
-          {"different_places", differences(a.sphere_ids, b.sphere_ids, std::equal_to<>())},
+          {"different_nodes",
+           differences(a.nodes, b.nodes, same_node) + differences(a.sphere_ids, b.sphere_ids, std::equal_to<>())},
           {"different_pixels", difference_of(one->picture, other->picture).pixels}};
 }
 

@@ -168,13 +168,20 @@ class Figure44(ProgramTest):
         self.assertEqual(rows[0]["seeds_with"], 5)
         self.assertEqual(rows[1]["seeds_with"], 0)
 
-        # The claims of section F about order and shape, all at once but for one: the most gain is with 256 spheres.
+        # The claims of section F about order and shape, all at once but for two: the most gain is with 256 spheres, and
+        # the bars of Scenario 2 stand above that of BIH 8 with 64 spheres in Scenario 1. The gains are as near as they get.
         claims = experiment["data"]["claims_at_costs"]
-        self.assertEqual((claims["leaf"], claims["fixed"], claims["asked"]), (0, 1, False))
+        self.assertEqual((claims["leaf"], claims["asked"]), (0, False))
+        self.assertIn(claims["fixed"], (1.5, 2))
+        self.assertLess(claims["gain_factor"], 1.63)
         at_costs = {
             finding["name"]: finding["verdict"] for finding in experiment["findings"] if finding["kind"] == "fitted"
         }
-        self.assertEqual({name for name, verdict in at_costs.items() if verdict != "agrees"}, {"scenario2.gain_percent.best.which"})
+        self.assertEqual({name for name, verdict in at_costs.items() if verdict != "agrees"},
+                         {"scenario2.gain_percent.best.which", "best.configuration", "best.bars_above"})
+        findings = {finding["name"]: finding for finding in experiment["findings"]}
+        self.assertEqual(findings["best.configuration"]["ours"], "BIH 8, 64 primitives, Scenario 2")
+        self.assertEqual(findings["supposed_best.configuration"]["verdict"], "agrees")
         self.assertEqual(sum(name.startswith("curve") for name in at_costs), 9)
 
         # The picture decides: another format or a larger radius has another range.
