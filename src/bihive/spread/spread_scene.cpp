@@ -233,6 +233,9 @@ Status SpreadScene::refusal(const Scene& scene, const RenderSettings& settings) 
   if (settings.view == View::tree || settings.view == View::traversal)
     return Error{"this view shows the tree of all spheres, and distributed spheres have a tree on each rank", "", 0, 0,
                  "leave out " + setting_name("distribute")};
+  if (settings.stereo.form != StereoForm::none)
+    return Error{"stereo pictures of distributed spheres are not drawn", "", 0, 0,
+                 "leave out " + setting_name("distribute") + " or " + setting_name("stereo")};
   return Done{};
 }
 
