@@ -119,7 +119,8 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   settings.labels.title =
       filled_title(settings.labels.title, request, input, whole != nullptr ? whole->count : scene.spheres.size());
   const bool is_fixed = request.fixed && !request.fixed->fits_each;
-  scene.camera = is_fixed ? request.fixed->camera : choose_camera(input, request, one_view(settings), selections, whole);
+  scene.camera =
+      is_fixed ? request.fixed->camera : choose_camera(input, request, one_view(settings), selections, whole);
   if (const Status status = check_picture(settings, scene.camera.aperture); !status)
     fail_usage(status.error().message, status.error().hint);
   apply_look(request.style, input);
