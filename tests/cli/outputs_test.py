@@ -280,8 +280,8 @@ class Names(OutputTest):
 
     def test_names_of_other_formats(self):
         for ending in ["jpg", "JPEG", "ppm", "tif", "gif", "svg", "pdf", "webp"]:
-            self.assertIn("PNG and OpenEXR", self.fail_usage("render", "demo", "-o", "a." + ending))
-            self.assertIn("PNG and OpenEXR", self.fail_usage("view", "demo", "--screenshot", "a." + ending))
+            self.assertIn("PNG, TIFF and OpenEXR", self.fail_usage("render", "demo", "-o", "a." + ending))
+            self.assertIn("PNG, TIFF and OpenEXR", self.fail_usage("view", "demo", "--screenshot", "a." + ending))
         self.succeed("render", "demo", "-o", "picture", *SMALL)
 
 

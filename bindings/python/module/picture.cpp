@@ -298,7 +298,7 @@ py::tuple state_of(const Picture& picture) {
   py::list text;
   for (const auto& [name, value] : picture.text) text.append(py::make_tuple(py::bytes(name), py::bytes(value)));
   return py::make_tuple(pixels.width, pixels.height, pixels.channels, pixels.bits, bytes, text, picture.dots_per_inch,
-                        picture.report, picture.methods);
+                        picture.report, picture.methods, pixels.is_srgb);
 }
 
 std::shared_ptr<Picture> from_state(const py::tuple& state) {
@@ -319,6 +319,7 @@ std::shared_ptr<Picture> from_state(const py::tuple& state) {
   picture->dots_per_inch = state[6].cast<double>();
   picture->report = state[7].cast<std::string>();
   picture->methods = state[8].cast<std::string>();
+  pixels.is_srgb = state[9].cast<bool>();
   return picture;
 }
 
