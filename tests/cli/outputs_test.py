@@ -279,9 +279,13 @@ class Names(OutputTest):
         self.assertIn("too long", self.fail_input("render", "scenario3", "-o", "p" * 256))
 
     def test_names_of_other_formats(self):
-        for ending in ["jpg", "JPEG", "ppm", "tif", "gif", "svg", "pdf", "webp"]:
+        for ending in ["jpg", "JPEG", "ppm", "svg", "pdf", "webp"]:
             self.assertIn("PNG, TIFF and OpenEXR", self.fail_usage("render", "demo", "-o", "a." + ending))
             self.assertIn("PNG, TIFF and OpenEXR", self.fail_usage("view", "demo", "--screenshot", "a." + ending))
+        for ending in ["gif", "apng", "mp4"]:
+            self.assertIn("bihive film", self.fail_usage("render", "demo", "-o", "a." + ending))
+        for ending in ["exr", "tif", "TIFF"]:
+            self.assertIn("PNG", self.fail_usage("view", "demo", "--screenshot", "a." + ending))
         self.succeed("render", "demo", "-o", "picture", *SMALL)
 
 

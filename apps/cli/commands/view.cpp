@@ -124,7 +124,7 @@ void run_view(const ViewOptions& options) {
                "there are soft, jmol and cpk; files of colours are for bihive render");
   if (!options.screenshot.empty()) {
     check_picture_name(options.screenshot);
-    if (options.screenshot == kStandardStream || is_exr(options.screenshot))
+    if (options.screenshot == kStandardStream || is_exr(options.screenshot) || is_tiff(options.screenshot))
       fail_usage("--screenshot writes a PNG file", "name one that ends in .png");
     check_outputs(outputs_of(options), inputs_of(options));
   }
