@@ -298,7 +298,7 @@ class PicturesThatWereThere(FaultTest):
     def test_a_picture_that_has_changed(self):
         self.film(*self.whole)
         good = self.read("run/2.png")
-        for bad in (good[:-1], good[:50] + b"\0" + good[51:], good + b"\0", self.read("run/1.png")):
+        for bad in (good[:-1], good[:50] + bytes([good[50] ^ 1]) + good[51:], good + b"\0", self.read("run/1.png")):
             self.write("run/2.png", bad)
             self.assertIn("run/2.png: exists already", self.fail_input("film", *self.whole))
         self.write("run/2.png", good)
