@@ -43,8 +43,9 @@ PngPixels finished(const Drawing& drawing, const Film& film, const Tile& pixels,
 
 std::string file_of_bands(const Drawing& drawing, const Tracer& tracer, int band_rows, int bits) {
   const Tile drawn = drawn_pixels(drawing.settings);
-  Result<PngEncoder> encoder = PngEncoder::begin(drawn.width(), drawn.height(), drawing.settings.transparent ? 4 : 3,
-                                                 bits, {{"Software", "test"}}, 300);
+  Result<PngEncoder> encoder =
+      PngEncoder::begin(drawn.width(), drawn.height(), drawing.settings.transparent ? 4 : 3, bits,
+                        {{"Software", "test"}}, 300, drawing.scene.picture.transfer == Transfer::srgb);
   EXPECT_TRUE(encoder.ok());
   std::string file;
   const auto take = [&](const Film& film, const Tile& pixels) {

@@ -109,8 +109,9 @@ class Threads(ProgramTest):
     def test_picture(self):
         picture = bh.render(spheres(), **SMALL)
         arguments = {"layer": ("normal",), "core.layer": ("id",), "__getitem__": ()}
-        calls = calls_of(picture, self.folder, arguments, left_out={"save", "detach", "core.save", "core.save_exr", "core.detach"})
+        calls = calls_of(picture, self.folder, arguments, left_out={"save", "detach", "core.save", "core.save_exr", "core.save_tiff", "core.detach"})
         calls["save"] = lambda: picture.save(self.path_of_thread("png"))
+        calls["save_tiff"] = lambda: picture.save(self.path_of_thread("tif"))
         calls["save_exr"] = lambda: picture.save(self.path_of_thread("exr"), layers="radiance,depth")
         calls["alike"] = lambda: np.asarray(bh.render(spheres(), camera=picture, **SMALL))
         self.together(calls)
