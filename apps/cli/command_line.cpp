@@ -227,7 +227,7 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
             [](const std::string& text) { return number_from_text(text, -1e6, 1e6); });
   static const Names<std::string> kAxes{{"x", "x"}, {"y", "y"}, {"z", "z"}, {"picture", "picture"}};
   add_choice(command, "--turn-axis", options.turn_axis, kAxes,
-             "The axis of --turntable: of the world, or the picture's vertical (the world's up)");
+             "Axis of --turntable: x, y or z of the world, or the picture's vertical (the world's up direction)");
   add_value(command, "--follow", options.follow, "EXPR",
             "The camera moves with these spheres, through the boundaries of a periodic cell too", film_selection_from);
   add_value(command, "--align", options.align, "EXPR",
@@ -328,10 +328,9 @@ void add_info(CLI::App& app, InfoOptions& options, Request& request) {
   command.add_flag("--trees", options.trees, "Predict the memory of the trees too, and name the instruction set")
       ->excludes(attributes)
       ->excludes(frames);
-  std::vector<CLI::Option*> measures;
   const auto add_measure = [&](const char* name, std::vector<std::string>& texts, const char* help, const char* type) {
-    measures.push_back(command.add_option(name, texts, help)->type_name(type)->allow_extra_args(false));
-    for (CLI::Option* other : {attributes, frames}) measures.back()->excludes(other);
+    CLI::Option* measure = command.add_option(name, texts, help)->type_name(type)->allow_extra_args(false);
+    for (CLI::Option* other : {attributes, frames, command.get_option("--trees")}) measure->excludes(other);
   };
   add_measure("--distance", options.distances,
               "Distance of two spheres in each frame, as CSV: their positions from 0, by the\n"

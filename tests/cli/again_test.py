@@ -188,6 +188,8 @@ class Verify(AgainTest):
             self.succeed("verify", "c.png", "--methods"),
         )
         self.fail_usage("verify", "a.png", "--methods", "--json")
+        self.write("m.xyz", MOLECULE + "\n")
+        self.assertIn("other bytes", self.fail_input("verify", "a.png", "--methods"))
 
     def test_what_is_no_figure(self):
         self.write("a.png", b"nothing")

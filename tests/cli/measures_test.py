@@ -66,7 +66,8 @@ class MeasuresTest(ProgramTest):
         for bad in ["1", "1,2,3", "1,x", "1,-2", "", "1.5,2", "1,2,"]:
             self.assertIn("expected 2 positions of spheres", self.fail_usage("info", "a.xyz", "--distance", bad))
         self.assertIn("there is no sphere 4", self.fail_input("info", "a.xyz", "--angle", "0,1,4"))
-        self.fail_usage("info", "a.xyz", "--distance", "0,1", "--frames")
+        for other in ("--frames", "--attributes", "--trees"):
+            self.fail_usage("info", "a.xyz", "--distance", "0,1", other)
         self.fail_usage("info", "a.xyz", "--distance", "0,1", "--replicate", "2x1x1")
 
 

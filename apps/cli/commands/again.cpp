@@ -142,6 +142,8 @@ bool run_verify(const VerifyOptions& asked) {
       RenderOptions request;
       static_cast<PictureRequest&>(request) = request_again(figure, path, options.input, {});
       request.output = "/dev/null";
+      if (!changed_files(figure.record, request).empty())
+        fail({"was drawn from files with other bytes than these", path, 0, 0, "bihive verify names them"});
       const PreparedPicture prepared = prepare_render(request);
       print(methods_text(request, prepared.described, prepared.input.scene, figure.record));
     }
