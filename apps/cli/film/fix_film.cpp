@@ -89,8 +89,8 @@ std::pair<std::int64_t, Input> first_shown_frame(const FrameSource& source, cons
   return {shown, source.load(shown, style)};
 }
 
-// Unset: the picture's vertical. By default the world's up: of the side from which bihive looks, or of the camera
-// as it was stated.
+// Unset: the picture's vertical. The default is the up direction of the chosen side, or that of a camera that the scene
+// or the user states.
 std::optional<Vec3d> axis_of_turntable(const Input& input, const Camera& camera, const FilmOptions& options) {
   const RenderOptions& picture = options.picture;
   const bool is_fitted = !input.has_camera || picture.view_from || picture.view_of || picture.fit;

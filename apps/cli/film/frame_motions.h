@@ -11,8 +11,8 @@
 
 namespace bihive::cli {
 
-/// Where a camera that follows the spheres of a selection goes in each frame of the film, from that of the first one:
-/// as far as they have moved on average. With a periodic cell each moves from a frame to the next by the shortest of
+/// Camera translation for `follow`, per frame, relative to the first: the mean displacement of the selected spheres.
+/// With a periodic cell each moves from a frame to the next by the shortest of
 /// the ways to an image, and where the first of them comes in at another side of the cell, the camera goes there too. A
 /// frame that selects none repeats the frame before; where other spheres are selected than in the frame before, their
 /// mean moves. Reads all frames. Fails with kBadUsage on a wrong selection, or one that selects nothing in the first

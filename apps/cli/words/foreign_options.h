@@ -12,7 +12,7 @@ struct ForeignOption {
   std::string_view usage;   ///< of ours
 };
 
-/// What is said of an option that has no counterpart.
+/// The hint for an option without a counterpart.
 inline constexpr std::string_view kSpheresAlone =
     "bihive draws spheres alone; docs/coming_from.md says what else is possible";
 

@@ -62,8 +62,8 @@ def verify(figure: Path, input: Optional[Path] = None, *, difference: Optional[P
     difference: the path of a PNG that shows where they differ; None: none.
     progress: as of render().
 
-    Returns a Verdict, which is True where all bits are the same and come from files with the same bytes. What keeps the
-    figure from being drawn is its `error`. Raises FileError if the figure is not there.
+    Returns a Verdict, which is True if all bits are the same and the files have the same bytes. If the figure could not be
+    drawn, its `error` says why. Raises FileError if the figure is not there.
 
     >>> import os, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
