@@ -12,11 +12,10 @@
 namespace bihive::cli {
 
 /// Camera translation for `follow`, per frame, relative to the first: the mean displacement of the selected spheres.
-/// With a periodic cell each moves from a frame to the next by the shortest of
-/// the ways to an image, and where the first of them comes in at another side of the cell, the camera goes there too. A
-/// frame that selects none repeats the frame before; where other spheres are selected than in the frame before, their
-/// mean moves. Reads all frames. Fails with kBadUsage on a wrong selection, or one that selects nothing in the first
-/// frame.
+/// With a periodic cell each sphere moves between frames by the shortest way to an image, and where the first one
+/// re-enters the cell at another side, the camera goes there too. A frame that selects none repeats the frame before;
+/// if the selection changes between frames, the mean of its centres counts. Reads all frames. Fails with kBadUsage on a
+/// wrong selection, or one that selects nothing in the first frame.
 std::vector<Vec3d> shifts_of(const FrameSource& source, const FilmPlan& plan, const std::string& selection,
                              const Style& style);
 
