@@ -60,7 +60,7 @@ class EncodedFilm final : public FilmSink {
         pictures_(plan.positions()),
         shortest_((plan.asked.rate.pictures + plan.asked.rate.seconds - 1) / plan.asked.rate.seconds) {
     if (is_gif() && plan.asked.rate.pictures > kMostGifRate * plan.asked.rate.seconds)
-      fail_usage("a GIF shows at most 50 pictures per second",
+      fail_usage(fmt::format("a GIF shows at most {} pictures per second", kMostGifRate),
                  "choose a lower " + setting_name("fps") + ", or let the output end in .apng");
     rate_ = fmt::format("{}/{}", plan.asked.rate.pictures, plan.asked.rate.seconds);
     input_ = {"-f",         "rawvideo",    "-pixel_format",

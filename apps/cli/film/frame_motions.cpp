@@ -9,6 +9,7 @@
 
 #include "bihive/base/setting_name.h"
 #include "bihive/geometry/lattice.h"
+#include "bihive/geometry/measures.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/selection.h"
@@ -53,27 +54,6 @@ void for_each_frame(const FrameSource& source, const FilmPlan& plan, const Style
   }
 }
 
-// The shortest of a vector's images.
-Vec3d shortest_image(const std::optional<Lattice>& lattice, Vec3d vector) {
-  if (!lattice || !lattice->holds(vector)) return vector;
-  const Vec3d shares = lattice->shares(vector);
-  const Lattice::Range range =
-      lattice->images_within(lattice->covering(), {}, shares, shares, largest_coordinate(vector));
-  Vec3d shortest = vector;
-  for (std::int64_t i = range.first[0]; i <= range.last[0]; ++i)
-    for (std::int64_t j = range.first[1]; j <= range.last[1]; ++j)
-      for (std::int64_t k = range.first[2]; k <= range.last[2]; ++k)
-        if (const Vec3d image = vector + lattice->shift({i, j, k}); dot(image, image) < dot(shortest, shortest))
-          shortest = image;
-  return shortest;
-}
-
-Vec3d mean_centre(const std::vector<Vec3d>& points) {
-  Vec3d sum;
-  for (const Vec3d point : points) sum = sum + (point - points.front());
-  return points.front() + sum / static_cast<double>(points.size());
-}
-
 // From one frame to the next: how far the spheres have moved on average, by the shortest ways, and whether the first of
 // them came in at another side of the cell: by which vector of the lattice, else 0.
 struct Step {
@@ -81,15 +61,15 @@ struct Step {
 };
 Step step_between(const SelectedCentres& before, const SelectedCentres& now, const std::optional<Lattice>& lattice) {
   if (before.ids != now.ids) {
-    const Vec3d apart = mean_centre(now.centres) - mean_centre(before.centres);
-    const Vec3d moved = shortest_image(lattice, apart);
+    const Vec3d apart = mean_of(now.centres) - mean_of(before.centres);
+    const Vec3d moved = shortest_image(apart, lattice);
     return {moved, apart - moved};
   }
   Vec3d sum;
   for (std::size_t i = 0; i < now.centres.size(); ++i)
-    sum = sum + shortest_image(lattice, now.centres[i] - before.centres[i]);
+    sum = sum + shortest_image(now.centres[i] - before.centres[i], lattice);
   const Vec3d apart = now.centres.front() - before.centres.front();
-  return {sum / static_cast<double>(now.centres.size()), apart - shortest_image(lattice, apart)};
+  return {sum / static_cast<double>(now.centres.size()), apart - shortest_image(apart, lattice)};
 }
 
 }  // namespace

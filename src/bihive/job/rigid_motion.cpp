@@ -8,7 +8,6 @@
 #include "bihive/math/symmetric_eigen.h"
 
 namespace bihive {
-namespace {
 
 Vec3d mean_of(const std::vector<Vec3d>& points) {
   // About the first one, so that points far from 0 keep their digits.
@@ -16,8 +15,6 @@ Vec3d mean_of(const std::vector<Vec3d>& points) {
   for (const Vec3d point : points) sum = sum + (point - points.front());
   return points.front() + sum / static_cast<double>(points.size());
 }
-
-}  // namespace
 
 RigidMotion superposition(const std::vector<Vec3d>& moving, const std::vector<Vec3d>& still) {
   const Vec3d from = mean_of(moving), to = mean_of(still);

@@ -19,6 +19,9 @@ struct RigidMotion {
   Vec3d operator()(Vec3d point) const { return turned(point) + shift; }
 };
 
+/// At least one point.
+Vec3d mean_of(const std::vector<Vec3d>& points);
+
 /// The motion that brings points closest to others: the least sum of squared distances between points of the same
 /// number, without mirroring [Horn1987]. Both have the same number of points, at least one. Points on a line leave the
 /// turn about it open, and get some one. The same bits everywhere.
