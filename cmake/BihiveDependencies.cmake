@@ -89,6 +89,19 @@ if(NOT BIHIVE_TIFF STREQUAL "OFF")
   endif()
 endif()
 
+# Fonts of the user, the same.
+set(BIHIVE_FREETYPE AUTO CACHE STRING "Read fonts: ON, OFF, or AUTO: where FreeType is installed")
+set(BIHIVE_HAS_FREETYPE OFF)
+if(NOT BIHIVE_FREETYPE STREQUAL "OFF")
+  find_package(Freetype QUIET)
+  if(FREETYPE_FOUND)
+    set(BIHIVE_HAS_FREETYPE ON)
+    list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<LINK_ONLY:Freetype::Freetype>)
+  elseif(NOT BIHIVE_FREETYPE STREQUAL "AUTO")
+    bihive_missing("FreeType" libfreetype-dev)
+  endif()
+endif()
+
 # HDF5 files are read by libhdf5, which is loaded when a file needs it: only its header is used here, and the name under
 # which the library is found later.
 set(BIHIVE_HDF5 AUTO CACHE STRING "Read HDF5: ON, OFF, or AUTO: where it is installed")

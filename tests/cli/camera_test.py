@@ -229,7 +229,20 @@ class Selected(CameraTest):
     def test_up_rolls_a_fitted_picture(self):
         upright = self.camera("beads.csv", "--fit", "kind a", "--up", "1,0,0", "--size", "90x200", "--projection", "orthographic")
         self.assertAlmostEqual(upright["shorter_side"], 34 / 0.92 * 90 / 200)
-        self.assertIn("up is parallel", self.fail_usage("render", "beads.csv", "-o", "a.png", "--fit", "all", "--up", "0,0,1"))
+        for more in ([], ["--size", "200x90"], ["--view-from", "left"], ["--turn", "0,40"]):
+            rolled = self.camera("beads.csv", "--up", "0,2,1", *more)
+            self.assertEqual(rolled, self.camera("beads.csv", "--fit", "all", "--up", "0,2,1", *more), more)
+        # The whole set fills the picture, where the camera of another direction up would leave room.
+        self.assertLess(self.camera("beads.csv", "--up", "1,0,0", "--size", "90x200")["eye"][2],
+                        0.7 * self.camera("beads.csv", "--size", "90x200")["eye"][2])
+
+    def test_up_along_the_view_tips_the_world(self):
+        for up, axis in [("0,0,1", -1), ("0,0,-3", 1)]:
+            camera = self.camera("beads.csv", "--up", up)
+            self.assertGreater(axis * (camera["eye"][1] - camera["look_at"][1]), 1)
+            self.assertEqual(camera["up"], [0, 0, -axis])
+        self.assertIn("--up is the direction of view", self.fail_usage(
+            "render", "beads.csv", "-o", "a.png", "--view-from", "front", "--up", "0,0,1"))
 
     def test_selections_see_the_spheres_as_they_were_read(self):
         hidden = ["--select", "index 0..2", "--hide"]

@@ -3,6 +3,7 @@
 # ctest: asan-long
 
 import json
+import os
 
 from program import ProgramTest, main, png_pixels, png_text
 
@@ -69,9 +70,35 @@ class Labels(ProgramTest):
 
     def test_letters_that_the_font_lacks_are_told(self):
         self.assertEqual(self.said("--title", "Ångström, β², …"), "")
-        self.assertIn("the title has boxes in place of letters that the font (DejaVu Sans) lacks: 水", self.said("--title", "水 水"))
+        self.assertIn("the title has boxes in place of letters that DejaVu Sans lacks: 水; choose a font by --font", self.said("--title", "水 水"))
         self.write("w.csv", "x,y,z,r,part\n0,0,0,1,水\n")
         self.assertIn("the legend has boxes", self.said("--colour-by", "part", "--legend", name="w.csv"))
+
+    def test_letters_of_another_font(self):
+        """Each file of DejaVu Sans has other letters; a picture depends on the bytes of the file alone."""
+        fonts = "/usr/share/fonts/truetype/dejavu/"
+        own, bold, mono = fonts + "DejaVuSans.ttf", fonts + "DejaVuSans-Bold.ttf", fonts + "DejaVuSansMono.ttf"
+        if not all(map(os.path.exists, (own, bold, mono))):
+            self.skipTest("fonts-dejavu-core is not installed")
+        look = ["--legend", "--colour-by", "part", "--title", "Kerning: AVAT, β²"]
+        if "reads no fonts" in self.said(*look, "--font", own):
+            self.skipTest("built without FreeType")
+        plain = self.picture(*look)
+        self.assertEqual(self.picture(*look, "--font", own), plain)  # the same outlines and kerning
+        heavy = self.picture(*look, "--font", bold)
+        self.assertNotEqual(heavy, plain)
+        self.assertNotEqual(self.picture(*look, "--font", mono), heavy)
+        # Cyrillic is not among the letters that come along.
+        self.assertIn("DejaVu Sans lacks: Вода", self.said("--title", "Вода"))
+        self.assertEqual(self.said("--title", "Вода", "--font", bold), "")
+        self.assertIn("neither the chosen font nor DejaVu Sans has: 水", self.said("--title", "水", "--font", mono))
+        # The figure names the file, and is drawn again with it alone.
+        self.picture(*look, "--font", bold)
+        self.assertIn("DejaVuSans-Bold.ttf (--font), which is neither beside it", self.run_bihive("verify", "a.png").stdout)
+        os.symlink(bold, os.path.join(self.folder, "DejaVuSans-Bold.ttf"))
+        self.assertIn("the same bits", self.succeed("verify", "a.png"))
+        for name, said in [("a.csv", "is no font that FreeType can read"), ("none.ttf", "No such file")]:
+            self.assertIn(said, self.fail_input("render", "a.csv", "-o", "b.png", "--font", name))
 
     def test_long_names_stay_beside_the_spheres(self):
         self.write("l.csv", "x,y,z,r,part\n" + "".join(

@@ -159,7 +159,7 @@ class WrongUsage(ProgramTest):
     def test_contradictions(self):
         self.render("--shadows", "--no-shadows")
         self.render("--view-from", "top", "--eye", "0,0,100")
-        self.render("--view-from", "top", "--up", "0,0,1")
+        self.render("--view-from", "top", "--up", "0,1,0")
         for view in ["traversal", "tree"]:
             self.assertIn("tree", self.render("--view", view, "--engine", "brute"))
             self.assertIn("reference tree", self.render("--view", view, "--engine", "wide"))

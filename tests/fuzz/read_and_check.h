@@ -161,6 +161,7 @@ inline void choose_more(int choice, ReadOptions& options) {
   if (choice == 0) options.wrapping = Wrapping::wrap;
   if (choice == 0 || choice == 2) options.replicate = {2, 1, 3};
   if (choice == 1) options.wrapping = Wrapping::unwrap;
+  if (choice == 1 || choice == 2) options.smooth = 3;
   if (choice == 2) options.wrapping = Wrapping::wrap_molecules;
   if (choice == 2) options.cell_vectors = {Vec3d{2, 0, 0}, Vec3d{0.5, 3, 0}, Vec3d{0, 0, 1e3}};
   if (choice <= 2) options.cell_origin = Vec3d{0.25, -1, 0};

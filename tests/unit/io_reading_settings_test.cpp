@@ -6,10 +6,19 @@ namespace bihive {
 namespace {
 
 TEST(ReadingSettings, EveryRowIsTakenAndReported) {
-  const std::vector<std::pair<std::string, std::string>> texts{
-      {"radius", "0.5"},   {"radius_scale", "2"}, {"frame", "3"},           {"trajectory", "a.xtc"},
-      {"recenter", ""},    {"assembly", "1"},     {"columns", "x=px,r=5"},  {"replicate", "2x3x1"},
-      {"no_periodic", ""}, {"unwrap", ""},        {"cell_origin", "1,2,3"}, {"cell_vectors", "1,0,0,0,2,0,0,0,3"}};
+  const std::vector<std::pair<std::string, std::string>> texts{{"radius", "0.5"},
+                                                               {"radius_scale", "2"},
+                                                               {"frame", "3"},
+                                                               {"trajectory", "a.xtc"},
+                                                               {"smooth", "5"},
+                                                               {"recenter", ""},
+                                                               {"assembly", "1"},
+                                                               {"columns", "x=px,r=5"},
+                                                               {"replicate", "2x3x1"},
+                                                               {"no_periodic", ""},
+                                                               {"unwrap", ""},
+                                                               {"cell_origin", "1,2,3"},
+                                                               {"cell_vectors", "1,0,0,0,2,0,0,0,3"}};
   GivenReading given;
   for (const auto& [id, text] : texts) EXPECT_TRUE(given.take(id, text).ok()) << id;
   EXPECT_EQ(given.all().size() + 3, reading_settings().size());  // all but wrap, wrap_molecules and periodic
@@ -17,7 +26,7 @@ TEST(ReadingSettings, EveryRowIsTakenAndReported) {
   for (const auto& [row, text] : given.all()) report += row->value(given.options()) + " ";
   EXPECT_EQ(
       report,
-      "0.5 2.0 3 \"a.xtc\" true \"1\" {\"r\":\"5\",\"x\":\"px\"} [2,3,1] [[1.0,0.0,0.0],[0.0,2.0,0.0],[0.0,0.0,3.0]] "
+      "0.5 2.0 3 \"a.xtc\" 5 true \"1\" {\"r\":\"5\",\"x\":\"px\"} [2,3,1] [[1.0,0.0,0.0],[0.0,2.0,0.0],[0.0,0.0,3.0]] "
       "[1.0,2.0,3.0] false \"unwrap\" ");
   EXPECT_EQ(given.options().wrapping, Wrapping::unwrap);
   EXPECT_EQ(given.options().replicate, (std::array<std::int32_t, 3>{2, 3, 1}));
@@ -42,6 +51,7 @@ TEST(ReadingSettings, ErrorsSayWhatWasExpected) {
   EXPECT_EQ(given.take("radius", "-1").error().message,
             "expected a number from 0 to 3.4028234663852886e+38, found \"-1\"");
   EXPECT_EQ(given.take("frame", "1.5").error().message, "expected a whole number, found \"1.5\"");
+  EXPECT_EQ(given.take("smooth", "4").error().message, "expected an odd number, found 4");
   EXPECT_FALSE(given.take("columns", "x"));
   EXPECT_FALSE(given.take("assembly", ""));
   EXPECT_FALSE(given.take("colour", "red"));

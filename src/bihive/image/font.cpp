@@ -27,7 +27,7 @@ class OutlineReader {
   std::size_t at_ = 0;
 };
 
-struct Font {
+struct OutlineTable {
   std::unordered_map<char32_t, Glyph> glyphs;
   std::unordered_map<std::uint32_t, double> kerning;  // by the two characters
 };
@@ -52,8 +52,8 @@ Glyph read_glyph(OutlineReader& reader, double unit) {
   return glyph;
 }
 
-Font read_font() {
-  Font font;
+OutlineTable read_outlines() {
+  OutlineTable font;
   OutlineReader reader(font_outlines());
   const double unit = reader.number();
   reader.number();  // its own ascent and descent leave room for accents on capitals
@@ -72,8 +72,8 @@ Font read_font() {
   return font;
 }
 
-const Font& dejavu_sans() {
-  static const Font font = read_font();
+const OutlineTable& dejavu_sans() {
+  static const OutlineTable font = read_outlines();
   return font;
 }
 
@@ -95,21 +95,29 @@ std::size_t decode(std::string_view text, char32_t& character) {
 
 }  // namespace
 
-const Glyph& glyph_of(char32_t character) {
-  const Font& font = dejavu_sans();
-  const auto known = font.glyphs.find(character);
-  return known != font.glyphs.end() ? known->second : font.glyphs.at(0);
+const Glyph& glyph_of(char32_t character, const Font* font) {
+  if (font != nullptr)
+    if (const Glyph* const glyph = font->glyph(character)) return *glyph;
+  const OutlineTable& own = dejavu_sans();
+  const auto known = own.glyphs.find(character);
+  return known != own.glyphs.end() ? known->second : own.glyphs.at(0);
 }
 
-bool has_glyph(char32_t character) {
+bool has_glyph(char32_t character, const Font* font) {
+  if (font != nullptr && font->glyph(character) != nullptr) return true;
   return character != 0 && dejavu_sans().glyphs.count(character) > 0;
 }
 
-double kerning_between(char32_t left, char32_t right) {
+double kerning_between(char32_t left, char32_t right, const Font* font) {
+  if (font != nullptr) {
+    const bool has_left = font->glyph(left) != nullptr, has_right = font->glyph(right) != nullptr;
+    if (has_left && has_right) return font->kerning(left, right);
+    if (has_left || has_right) return 0;
+  }
   if (left > 0xFFFF || right > 0xFFFF) return 0;
-  const Font& font = dejavu_sans();
-  const auto known = font.kerning.find(pair_of(left, right));
-  return known != font.kerning.end() ? known->second : 0;
+  const OutlineTable& own = dejavu_sans();
+  const auto known = own.kerning.find(pair_of(left, right));
+  return known != own.kerning.end() ? known->second : 0;
 }
 
 std::vector<char32_t> characters_of(std::string_view utf8) {

@@ -1,5 +1,5 @@
 // The letters of legends and titles: outlines of DejaVu Sans, which the library brings along
-// (data/font, docs/decisions/0019-letters-as-outlines.md).
+// (data/font, docs/decisions/0019-letters-as-outlines.md), or of a font that the user chooses (image/font_file.h).
 #pragma once
 
 #include <cstddef>
@@ -20,19 +20,30 @@ struct Glyph {
   std::vector<std::vector<OutlinePoint>> contours;
 };
 
-/// The outline of a character (a Unicode number); a box for one that the font lacks.
-const Glyph& glyph_of(char32_t character);
+/// A font that is used in place of DejaVu Sans. Any number of threads may call it at a time.
+class Font {
+ public:
+  virtual ~Font() = default;
+  /// Null: the font lacks the character. A glyph lives as long as the font.
+  virtual const Glyph* glyph(char32_t character) const = 0;
+  /// As kerning_between(), of characters that the font has.
+  virtual double kerning(char32_t left, char32_t right) const = 0;
+};
 
-/// What is added to the advance of `left` in front of `right`, in units of the font's size.
-double kerning_between(char32_t left, char32_t right);
+/// The outline of a character (a Unicode number): of `font`, if there is one and it has the character, else of DejaVu
+/// Sans; a box for one that both lack.
+const Glyph& glyph_of(char32_t character, const Font* font = nullptr);
+
+/// What is added to the advance of `left` in front of `right`, in units of the font's size. 0 between two fonts.
+double kerning_between(char32_t left, char32_t right, const Font* font = nullptr);
 
 /// From the line that letters stand on to the top and to the bottom of a line of text, in units of the font's size.
 constexpr double kAscent = 0.76;
 constexpr double kDescent = 0.24;
 constexpr double kCapitalHeight = 0.73;
 
-/// Whether the font has it; glyph_of() then gives no box.
-bool has_glyph(char32_t character);
+/// Whether one of the fonts has it; glyph_of() then gives no box.
+bool has_glyph(char32_t character, const Font* font = nullptr);
 
 /// The characters of UTF-8 text. A byte that belongs to no character is U+FFFD.
 std::vector<char32_t> characters_of(std::string_view utf8);

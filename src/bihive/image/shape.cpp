@@ -182,12 +182,12 @@ void Shape::add_disc(CanvasPoint centre, double radius) {
   add_polygon(points);
 }
 
-void Shape::add_text(std::string_view utf8, CanvasPoint start, double size) {
+void Shape::add_text(std::string_view utf8, CanvasPoint start, double size, const Font* font) {
   char32_t before = 0;
   double x = start.x;
   for (const char32_t character : characters_of(utf8)) {
-    const Glyph& glyph = glyph_of(character);
-    x += size * kerning_between(before, character);
+    const Glyph& glyph = glyph_of(character, font);
+    x += size * kerning_between(before, character, font);
     for (const std::vector<OutlinePoint>& contour : glyph.contours)
       if (std::vector<CanvasPoint> points = flattened(contour, {x, start.y}, size); !points.empty())
         outlines_.push_back(std::move(points));
@@ -196,11 +196,11 @@ void Shape::add_text(std::string_view utf8, CanvasPoint start, double size) {
   }
 }
 
-double text_width(std::string_view utf8, double size) {
+double text_width(std::string_view utf8, double size, const Font* font) {
   char32_t before = 0;
   double width = 0;
   for (const char32_t character : characters_of(utf8)) {
-    width += size * (kerning_between(before, character) + glyph_of(character).advance);
+    width += size * (kerning_between(before, character, font) + glyph_of(character, font).advance);
     before = character;
   }
   return width;

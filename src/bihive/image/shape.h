@@ -13,6 +13,8 @@
 
 namespace bihive {
 
+class Font;
+
 /// A union of closed outlines. Outlines of polygons may overlap each other; points must be finite and lie within some
 /// ten thousand pixels of the picture.
 class Shape {
@@ -23,8 +25,9 @@ class Shape {
   /// With square ends at a and b. Nothing if a and b coincide.
   void add_line(CanvasPoint a, CanvasPoint b, double width);
   void add_disc(CanvasPoint centre, double radius);
-  /// One line of text that begins at `start` on the line that letters stand on. `size`: of the font, in pixels.
-  void add_text(std::string_view utf8, CanvasPoint start, double size);
+  /// One line of text that begins at `start` on the line that letters stand on. `size`: of the font, in pixels. `font`:
+  /// as in glyph_of() (image/font.h).
+  void add_text(std::string_view utf8, CanvasPoint start, double size, const Font* font = nullptr);
 
   const std::vector<std::vector<CanvasPoint>>& outlines() const { return outlines_; }
 
@@ -33,7 +36,7 @@ class Shape {
 };
 
 /// The width of one line of text in pixels.
-double text_width(std::string_view utf8, double size);
+double text_width(std::string_view utf8, double size, const Font* font = nullptr);
 
 /// A share from 0 to 1 for each of these pixels, row by row from the top. Outside of them it is 0.
 struct CoverageMask {

@@ -30,6 +30,7 @@ struct ReadOptions {
   /// A file with the places of the same spheres (io/trajectory.h), of which `frame` is then a frame; the other file is
   /// read at its first frame. Empty: none.
   std::string trajectory = "";
+  std::int64_t smooth = 1;    ///< an odd number: coordinates are means over this many frames (io/frames/frame_means.h)
   std::string assembly = "";  ///< id of a biological assembly in a PDB or mmCIF file; empty: the atoms as they are
   ColumnChoice columns = {};  ///< of formats with columns: which one plays which part; the others go by their names
   /// The vectors of the cell and its corner, in place of the file's. A corner that neither states is 0.

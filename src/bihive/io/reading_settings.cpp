@@ -47,6 +47,14 @@ Result<std::int64_t> frame_from_text(const std::string& text) {
   return *frame;
 }
 
+Result<std::int64_t> frames_of_mean(const std::string& text) {
+  constexpr std::int64_t kMost = 9999;
+  const Result<std::int64_t> frames = whole_number_from_text(text, 1, kMost);
+  if (frames && *frames % 2 == 0)
+    return Error{"expected an odd number, found " + text, "", 0, 0, "the frame is in the middle"};
+  return frames;
+}
+
 bool excludes(const ReadingSetting& one, const ReadingSetting& other) {
   return std::find(one.excludes.begin(), one.excludes.end(), other.id) != one.excludes.end();
 }
@@ -86,6 +94,11 @@ std::vector<ReadingSetting> make_rows() {
            "Files: coordinates of the same spheres per frame (" + names_of_formats(FormatsThat::are_trajectories) + ")",
        .take = [](ReadOptions& o, const std::string& text) { return put(Result<std::string>(text), o.trajectory); },
        .value = [](const ReadOptions& o) { return text_of(o.trajectory); }},
+      {.id = "smooth",
+       .value_name = "N",
+       .help = "Files with frames: means of coordinates over N frames, an odd number, with the frame in the middle",
+       .take = [](ReadOptions& o, const std::string& text) { return put(frames_of_mean(text), o.smooth); },
+       .value = [](const ReadOptions& o) { return text_of(o.smooth); }},
       {.id = "recenter",
        .help = "Files: move the middle of the set to the origin",
        .with_chunks = true,

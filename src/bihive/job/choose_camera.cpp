@@ -89,23 +89,34 @@ Side side_for(const Scene& scene, const PictureRequest& request, const RenderSet
   return principal_side(selected ? *selected : RemainingSpheres(scene).set(), is_upright);
 }
 
+// The same side with another direction up. Where that is the direction of view, the world is tipped: with z up the
+// front is seen along y.
+Side with_up(Side side, Vec3d up, bool side_is_given) {
+  if (parallel(up, side.back)) {
+    if (side_is_given)
+      fail_setting("up", " is the direction of view",
+                   "give another one, or turn the camera by " + setting_name("turn"));
+    side.back = dot(up, side.back) > 0 ? -side.up : side.up;
+  }
+  side.up = up;
+  return side;
+}
+
 }  // namespace
 
 Camera choose_camera(const Input& input, const PictureRequest& request, const RenderSettings& settings,
                      const CameraSelections& selections, const WholeSet* whole) {
-  const bool user_places = request.eye || request.look_at || (request.up && !request.fit);
   Camera camera = input.scene.camera;
   camera.fov_deg = request.fov_deg.value_or(camera.fov_deg);
   const Projection projection = request.projection.value_or(camera.projection);
   const bool fitted = !input.has_camera || request.view_from || request.view_of || request.fit;
+  // A direction that is up turns a camera that is fitted.
+  const bool user_places = request.eye || request.look_at || (request.up && !fitted);
   const std::optional<SphereSet> selected = spheres_to_fill(input.scene, request, selections, settings);
   if (fitted) {
     // The fit uses the direction after the turn. A camera that the user places is turned below.
     Side side = side_for(input.scene, request, settings, selections, selected);
-    if (request.up && request.fit) {
-      if (parallel(*request.up, side.back)) fail_usage("up is parallel to the direction of view", "give another up");
-      side.up = *request.up;
-    }
+    if (request.up && !user_places) side = with_up(side, *request.up, request.view_from.has_value());
     if (request.turn && !user_places) side = turned(side, *request.turn);
     // With the user's own eye point, the angle decides how much is visible.
     if (!request.fov_deg && !user_places) camera.fov_deg = angle_for_wide_pictures(camera.fov_deg, settings);

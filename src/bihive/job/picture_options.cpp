@@ -262,7 +262,7 @@ void add_camera(Rows& rows) {
                 "picture's longer side; best: the direction that shows most of a selection",
         .theme = kTheme,
         .ranks = kChunks,
-        .excludes = {"eye", "look_at", "up"},
+        .excludes = {"eye", "look_at"},
         .take = set_view},
        {.id = "eye",
         .value_name = "X,Y,Z",
@@ -474,6 +474,16 @@ void add_labels(Rows& rows) {
                               request.labels.title_values = text;
                               return Done{};
                             }},
+                           {.id = "font",
+                            .value_name = "FILE",
+                            .help = "Font of titles, legends and the rest: TrueType or OpenType (DejaVu Sans)",
+                            .theme = kTheme,
+                            .ranks = kChunks,
+                            .in_window = false,
+                            .take = [](PictureRequest& request, const std::string& text) -> Status {
+                              request.labels.font = text;
+                              return Done{};
+                            }},
                            {.id = "no_labels",
                             .help = "None of the labels that the scene file or the style asks for",
                             .theme = kTheme,
@@ -592,7 +602,7 @@ bool names_file(std::string_view id, const std::string& value) {
   if (id == "style") return !style_named(value);
   if (id == "element_colours") return !element_colours_called(value);
   if (id == "colour_by") return !colour_map_file(value).empty();
-  return id == "title_values" || id == "trajectory";
+  return id == "title_values" || id == "trajectory" || id == "font";
 }
 
 std::vector<GivenSetting> files_named_by(const PictureRequest& request) {

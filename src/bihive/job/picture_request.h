@@ -33,6 +33,7 @@ struct StyleOptions {
 struct LabelOptions {
   bool none = false;              ///< leave out those of the scene and its style
   std::string title_values = "";  ///< a CSV file with a row for each frame; empty: none
+  std::string font = "";          ///< the file of a font; empty: DejaVu Sans
 };
 
 /// Values fixed for all pictures of a film.

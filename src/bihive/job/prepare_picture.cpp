@@ -9,6 +9,7 @@
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
+#include "bihive/image/font_file.h"
 #include "bihive/io/frames.h"
 #include "bihive/job/choose_labels.h"
 #include "bihive/job/choose_look.h"
@@ -102,6 +103,7 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
     fail_setting("cell", " draws on the shaded picture alone", "leave out " + setting_name("view"));
   settings.view = request.view;
   settings.dots_per_inch = request.dots_per_inch;
+  if (!request.labels.font.empty()) settings.font = value_or_fail(read_font(request.labels.font));
   settings.threads = static_cast<int>(request.threads);
   if (request.background && !settings.transparent)
     scene.background = *colour_from(*request.background, scene.picture.transfer);
@@ -222,7 +224,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
       if (const std::string dark = dark_insides(input.scene, settings); !dark.empty()) warn(dark);
     if (settings.labels.legend)
       if (const std::string equal = equal_colours(input.scene); !equal.empty()) warn(equal);
-    for (const std::string& lacking : missing_letters(input.scene, settings.labels)) warn(lacking);
+    for (const std::string& lacking : missing_letters(input.scene, settings)) warn(lacking);
   }
   return settings;
 }

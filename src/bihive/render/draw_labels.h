@@ -21,8 +21,8 @@ Status check_labels(const Scene& scene, const Camera& camera, const RenderSettin
 /// The labels of the settings without those that this picture cannot have.
 Labels possible_labels(const Scene& scene, const Camera& camera, const RenderSettings& settings);
 
-/// A sentence for each label whose text has letters that the font lacks. A legend costs a pass over all spheres.
-std::vector<std::string> missing_letters(const Scene& scene, const Labels& labels);
+/// A sentence for each label whose text has letters that the fonts lack. A legend costs a pass over all spheres.
+std::vector<std::string> missing_letters(const Scene& scene, const RenderSettings& settings);
 
 /// What each label covers of the picture, in pixels. Not there: no such label, or check_labels() refuses it.
 struct LabelAreas {

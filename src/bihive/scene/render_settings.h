@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "bihive/image/film.h"
@@ -9,6 +10,8 @@
 #include "bihive/settings/picture_settings.h"
 
 namespace bihive {
+
+class Font;
 
 /// shaded: Whitted's pictures. recursion: the deepest generation that hit something. traversal: gaps passed (green) and
 /// nodes entered (blue) by the primary ray. normal, distance, id: those of the first hit. tree: a drawing of the tree
@@ -19,8 +22,9 @@ enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 struct RenderSettings : PictureSettings {
   /// Multiplies the widths of outlines and creases, for a preview in another size; 0: none.
   double line_scale = 1;
-  double dots_per_inch = 0;      ///< of the picture in print, for letters and for lines in points; 0: not stated
-  std::optional<Camera> camera;  ///< in place of the scene's: an eye of a stereo picture
+  double dots_per_inch = 0;          ///< of the picture in print, for letters and for lines in points; 0: not stated
+  std::shared_ptr<const Font> font;  ///< of labels (image/font.h); null: DejaVu Sans
+  std::optional<Camera> camera;      ///< in place of the scene's: an eye of a stereo picture
   View view = View::shaded;
   /// Only these pixels of the picture are drawn, with the same bits as in the whole picture: at least one, inside it.
   std::optional<Tile> crop;

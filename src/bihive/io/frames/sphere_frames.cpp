@@ -117,6 +117,19 @@ Status SphereFrames::take_places(std::int64_t frame, RawSpheres& raw) const {
   return Done{};
 }
 
+// For means over frames.
+Result<RawSpheres> SphereFrames::coordinates_at(std::int64_t frame) const {
+  if (!is_moved()) return frames_->read(frame);
+  Result<TrajectoryFrame> read = trajectory_->read(frame);
+  if (!read) return read.error();
+  RawSpheres raw;
+  raw.x = std::move(read->x);
+  raw.y = std::move(read->y);
+  raw.z = std::move(read->z);
+  raw.cell = read->cell ? read->cell : atoms_.cell;
+  return raw;
+}
+
 // The spheres of a film keep their size: a radius that is a guess is the first frame's. If that frame cannot tell, each
 // frame has its own.
 std::optional<double> SphereFrames::radius_of_first_frame() const {
@@ -143,6 +156,11 @@ Result<SphereFile> SphereFrames::made_of(RawSpheres raw, std::int64_t frame) con
   if (!is_moved() && raw.frames > 1)
     names_.put_in_order(frame, raw, frames_->reads_each_apart(),
                         [this](std::int64_t other) { return frames_->read(other); });
+  if (options_.smooth > 1)
+    if (Status status = means_.smooth(frame, raw, options_, is_moved() ? options_.trajectory : name_,
+                                      [this](std::int64_t other) { return coordinates_at(other); });
+        !status)
+      return status.error();
   if (frames_->may_be_cut()) raw.warnings.push_back("the last line of " + name_ + " has no end: the file may be cut");
   if (!options_.assembly.empty())
     if (Status status = expand_assembly(raw, options_.assembly, name_); !status) return status.error();

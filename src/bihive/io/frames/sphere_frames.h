@@ -11,6 +11,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/io/frames.h"
+#include "bihive/io/frames/frame_means.h"
 #include "bihive/io/frames/frame_names.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/read_spheres.h"
@@ -39,6 +40,7 @@ class SphereFrames : public Frames {
   Result<SphereFile> begin(Result<OpenedFrames> opened, std::int64_t frame);
   Result<SphereFile> made_of(RawSpheres raw, std::int64_t frame) const;
   Status take_places(std::int64_t frame, RawSpheres& raw) const;
+  Result<RawSpheres> coordinates_at(std::int64_t frame) const;
   std::optional<double> radius_of_first_frame() const;
   Vec3d origin_of_first_frame() const;
 
@@ -58,6 +60,7 @@ class SphereFrames : public Frames {
   mutable std::mutex first_origin_lock_;
   mutable std::optional<Vec3d> first_origin_;
   mutable FrameNames names_;
+  mutable FrameMeans means_;
 };
 
 }  // namespace bihive

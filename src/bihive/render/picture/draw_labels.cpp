@@ -76,7 +76,8 @@ Labels possible_labels(const Scene& scene, const Camera& camera, const RenderSet
   return labels;
 }
 
-std::vector<std::string> missing_letters(const Scene& scene, const Labels& labels) {
+std::vector<std::string> missing_letters(const Scene& scene, const RenderSettings& settings) {
+  const Labels& labels = settings.labels;
   std::vector<std::pair<std::string, std::string>> texts;  // and what they are
   if (!labels.title.empty()) texts.emplace_back("the title", labels.title);
   if (labels.scale_bar && labels.length_unit) texts.emplace_back("the scale bar", *labels.length_unit);
@@ -88,7 +89,7 @@ std::vector<std::string> missing_letters(const Scene& scene, const Labels& label
   std::vector<std::pair<std::string, std::vector<char32_t>>> lacking;
   for (const auto& [what, text] : texts)
     for (const char32_t letter : characters_of(text)) {
-      if (has_glyph(letter)) continue;
+      if (has_glyph(letter, settings.font.get())) continue;
       if (lacking.empty() || lacking.back().first != what) lacking.emplace_back(what, std::vector<char32_t>());
       std::vector<char32_t>& letters = lacking.back().second;
       if (std::find(letters.begin(), letters.end(), letter) == letters.end()) letters.push_back(letter);
@@ -96,9 +97,11 @@ std::vector<std::string> missing_letters(const Scene& scene, const Labels& label
   constexpr std::size_t kMostNamed = 8;
   std::vector<std::string> sentences;
   for (const auto& [what, letters] : lacking)
-    sentences.push_back(what + " has boxes in place of letters that the font (DejaVu Sans) lacks: " +
+    sentences.push_back(what + " has boxes in place of letters that " +
+                        (settings.font ? "neither the chosen font nor DejaVu Sans has" : "DejaVu Sans lacks") + ": " +
                         text_of(letters, 0, std::min(letters.size(), kMostNamed)) +
-                        (letters.size() > kMostNamed ? " and more" : ""));
+                        (letters.size() > kMostNamed ? " and more" : "") + "; choose " +
+                        (settings.font ? "another" : "a") + " font by " + setting_name("font"));
   return sentences;
 }
 
@@ -108,7 +111,9 @@ LabelAreas label_areas(const Scene& scene, const Camera& camera, const RenderSet
   const double em = em_of_picture(settings.width_px, settings.height_px, settings.dots_per_inch);
   const CanvasArea nothing{double(settings.width_px), double(settings.height_px), 0, 0};
   CanvasArea title = nothing, legend = nothing, scale_bar = nothing, axes = nothing;
-  const auto pen = [&](CanvasArea& area) { return LabelPen(area, settings.width_px, settings.height_px, em); };
+  const auto pen = [&](CanvasArea& area) {
+    return LabelPen(area, settings.width_px, settings.height_px, em, settings.font.get());
+  };
   Pens pens{pen(title), pen(legend), pen(scale_bar), pen(axes)};
   draw_with(pens, scene, camera, possible);
   const auto found = [](const CanvasArea& area) {
@@ -122,7 +127,8 @@ namespace {
 // `part`: the pixels of the picture that `pixels` holds.
 void draw_labels_of_view(PngPixels& pixels, const Tile& part, const Scene& scene, const RenderSettings& settings) {
   const double em = em_of_picture(settings.width_px, settings.height_px, settings.dots_per_inch);
-  const LabelPen pen(pixels, part, settings.width_px, settings.height_px, em, paper_of(scene, settings));
+  const LabelPen pen(pixels, part, settings.width_px, settings.height_px, em, paper_of(scene, settings),
+                     settings.font.get());
   Pens pens{pen, pen, pen, pen};
   draw_with(pens, scene, scene.camera, settings);
 }

@@ -48,7 +48,7 @@ Shape arrow(CanvasPoint from, const ProjectedAxis& axis, double em) {
 // A letter with its middle here.
 void write_letter(LabelPen& pen, const char* letter, CanvasPoint middle) {
   constexpr double kHalfOfX = 0.27;  // half of the height of small letters
-  pen.write(letter, {middle.x - 0.5 * text_width(letter, pen.em()), middle.y + kHalfOfX * pen.em()}, 1);
+  pen.write(letter, {middle.x - 0.5 * pen.width_of(letter, pen.em()), middle.y + kHalfOfX * pen.em()}, 1);
 }
 
 }  // namespace

@@ -38,17 +38,19 @@ bool meets_rows(const Shape& shape, const Tile& part, double border) {
 
 }  // namespace
 
-LabelPen::LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height_px, double em_px, Vec3d paper)
+LabelPen::LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height_px, double em_px, Vec3d paper,
+                   const Font* font)
     : pixels_(&pixels),
       part_(part),
       width_px_(width_px),
       height_px_(height_px),
       em_px_(em_px),
+      font_(font),
       paper_(paper),
       ink_(is_light(paper) ? kDarkInk : kLightInk) {}
 
-LabelPen::LabelPen(CanvasArea& covered, int width_px, int height_px, double em_px)
-    : covered_(&covered), width_px_(width_px), height_px_(height_px), em_px_(em_px) {}
+LabelPen::LabelPen(CanvasArea& covered, int width_px, int height_px, double em_px, const Font* font)
+    : covered_(&covered), width_px_(width_px), height_px_(height_px), em_px_(em_px), font_(font) {}
 
 void LabelPen::cover(const Shape& shape, double border) {
   for (const std::vector<CanvasPoint>& outline : shape.outlines())
@@ -80,7 +82,7 @@ void LabelPen::draw(const Shape& shape, Vec3d colour) {
 
 void LabelPen::write(const std::string& text, CanvasPoint start, double size) {
   Shape shape;
-  shape.add_text(text, start, size * em_px_);
+  shape.add_text(text, start, size * em_px_, font_);
   draw(shape);
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "bihive/image/font.h"
 #include "bihive/image/overlay.h"
 #include "bihive/scene/scene.h"
 
@@ -11,9 +12,11 @@ namespace bihive {
 class LabelPen {
  public:
   /// `part`: the pixels of the whole picture, of this size, that `pixels` holds. `paper`: what is behind the picture.
-  LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height_px, double em_px, Vec3d paper);
+  /// `font`: as in glyph_of().
+  LabelPen(PngPixels& pixels, const Tile& part, int width_px, int height_px, double em_px, Vec3d paper,
+           const Font* font = nullptr);
   /// Draws nothing, but widens `covered` by what it would draw. An area that nothing covers has x0 above x1.
-  LabelPen(CanvasArea& covered, int width_px, int height_px, double em_px);
+  LabelPen(CanvasArea& covered, int width_px, int height_px, double em_px, const Font* font = nullptr);
 
   double width() const { return width_px_; }
   double height() const { return height_px_; }
@@ -30,6 +33,8 @@ class LabelPen {
   void draw(const Shape& shape, Vec3d colour);
   /// One line of text from `start` on. `size`: in ems.
   void write(const std::string& text, CanvasPoint start, double size);
+  /// The width of one line of text, in the unit of `size`.
+  double width_of(const std::string& text, double size) const { return text_width(text, size, font_); }
   /// The same with a smaller or larger em, for a part that has less room.
   LabelPen with_em(double em_px) const;
 
@@ -41,6 +46,7 @@ class LabelPen {
   Tile part_{0, 0, 0, 0};
   int width_px_, height_px_;
   double em_px_;
+  const Font* font_;
   Vec3d paper_, ink_;
 };
 

@@ -36,32 +36,32 @@ struct PreparedKey {
     const double gap = key.scale && !key.entries.empty() ? kGap : 0;
     return title_height() + (key.scale ? kBarHeight + kGap : 0) + gap + rows;
   }
-  double width() const {
-    double widest = text_width(key.title, 1);
+  double width(const LabelPen& pen) const {
+    double widest = pen.width_of(key.title, 1);
     for (const Tick& tick : ticks)
-      widest = std::max(widest, kBarWidth + kTickLength + kGap / 2 + kTextSize * text_width(tick.text, 1));
+      widest = std::max(widest, kBarWidth + kTickLength + kGap / 2 + kTextSize * pen.width_of(tick.text, 1));
     for (const LegendEntry& entry : key.entries)
-      widest = std::max(widest, kSquare + kGap + kTextSize * text_width(entry.name, 1));
+      widest = std::max(widest, kSquare + kGap + kTextSize * pen.width_of(entry.name, 1));
     return widest;
   }
 };
 
 // A name without its middle, if it is too wide.
-std::string shortened(const std::string& name) {
-  if (text_width(name, 1) <= kMostNameWidth) return name;
+std::string shortened(const LabelPen& pen, const std::string& name) {
+  if (pen.width_of(name, 1) <= kMostNameWidth) return name;
   const std::vector<char32_t> letters = characters_of(name);
   for (std::size_t kept = letters.size() - 1;; --kept) {
     const std::size_t first = (2 * kept + 2) / 3;
     const std::string made =
         text_of(letters, 0, first) + "\u2026" + text_of(letters, letters.size() - (kept - first), letters.size());
-    if (kept <= 1 || text_width(made, 1) <= kMostNameWidth) return made;
+    if (kept <= 1 || pen.width_of(made, 1) <= kMostNameWidth) return made;
   }
 }
 
-PreparedKey prepared(const LegendKey& key) {
+PreparedKey prepared(const LabelPen& pen, const LegendKey& key) {
   PreparedKey ready{key, {}};
-  ready.key.title = shortened(key.title);
-  for (LegendEntry& entry : ready.key.entries) entry.name = shortened(entry.name);
+  ready.key.title = shortened(pen, key.title);
+  for (LegendEntry& entry : ready.key.entries) entry.name = shortened(pen, entry.name);
   if (key.scale) ready.ticks = ticks_of(key.scale->range, key.scale->logarithmic, kMostTicks);
   std::vector<LegendEntry>& entries = ready.key.entries;
   if (entries.size() <= kMostEntries) return ready;
@@ -149,9 +149,9 @@ void draw_legend(LabelPen& pen, const std::vector<LegendKey>& keys, double top, 
   double height = -kBetweenKeys;
   double width = 0;
   for (const LegendKey& key : keys) {
-    ready.push_back(prepared(key));
+    ready.push_back(prepared(pen, key));
     height += ready.back().height() + kBetweenKeys;
-    width = std::max(width, ready.back().width());
+    width = std::max(width, ready.back().width(pen));
   }
   if (ready.empty()) return;
 

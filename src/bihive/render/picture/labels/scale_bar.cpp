@@ -26,7 +26,7 @@ double draw_scale_bar(LabelPen& pen, double length_per_px, const std::string& un
   Shape bar;
   bar.add_rectangle({right - length_px, bottom - thickness, right, bottom});
   pen.draw(bar);
-  const double text_px = text_width(text, pen.em());
+  const double text_px = pen.width_of(text, pen.em());
   const double text_x = std::min(right - 0.5 * (length_px + text_px), right - text_px);
   pen.write(text, {text_x, bottom - thickness - kTextGap * pen.em()}, 1);
   return pen.margin() + thickness + (kTextGap + kCapitalHeight) * pen.em();

@@ -11,13 +11,13 @@ constexpr double kTitleLine = 1.3;  // of the title's size
 constexpr int kMostTitleLines = 4;
 
 // The lines of a title: at each line break, and between words where a line is too long.
-std::vector<std::string> title_lines(const std::string& title, double size, double width) {
+std::vector<std::string> title_lines(const LabelPen& pen, const std::string& title, double size, double width) {
   std::vector<std::string> lines(1);
   std::string word;
   const auto end_word = [&] {
     std::string& line = lines.back();
     const std::string longer = line.empty() || word.empty() ? line + word : line + " " + word;
-    if (line.empty() || text_width(longer, size) <= width)
+    if (line.empty() || pen.width_of(longer, size) <= width)
       line = longer;
     else
       lines.push_back(word);
@@ -42,9 +42,9 @@ double draw_title(LabelPen& pen, const std::string& title) {
   double size = kTitleSize * pen.em();
   std::vector<std::string> lines;
   for (int attempt = 0; attempt < 8; ++attempt) {
-    lines = title_lines(title, size, room);
+    lines = title_lines(pen, title, size, room);
     double widest = 0;
-    for (const std::string& line : lines) widest = std::max(widest, text_width(line, size));
+    for (const std::string& line : lines) widest = std::max(widest, pen.width_of(line, size));
     const bool few = lines.size() <= static_cast<std::size_t>(kMostTitleLines);
     if (widest <= room && few) break;
     size *= few ? std::min(0.98, room / widest) : 0.8;
@@ -53,7 +53,7 @@ double draw_title(LabelPen& pen, const std::string& title) {
   // Draw them, each in the middle.
   double top = pen.margin() * 0.8;
   for (const std::string& line : lines) {
-    const CanvasPoint start{0.5 * (pen.width() - text_width(line, size)), top + kAscent * size};
+    const CanvasPoint start{0.5 * (pen.width() - pen.width_of(line, size)), top + kAscent * size};
     pen.write(line, start, size / pen.em());
     top += kTitleLine * size;
   }
