@@ -41,8 +41,7 @@ PngPixels drawn_again(const PictureRequest& request) {
   Input input = load_input(request.input, LooksOfFile::keep, &style, !request.style.name.empty());
   const RenderEngine engine = choose_engine(request);
   const RenderSettings settings = prepare_picture(request, engine, input);
-  const Tracer tracer =
-      value_or_fail(Tracer::build(input.scene.spheres, structure_of(engine), request.tree, settings.threads));
+  const Tracer tracer = value_or_fail(Tracer::build(input.scene, structure_of(engine), request.tree, settings.threads));
   const Rendered rendered = value_or_fail(render(input.scene, tracer, settings));
   return finished_pixels(rendered.film, input.scene, settings, static_cast<int>(request.bits.value_or(8)));
 }
