@@ -99,6 +99,36 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
   }
 }
 
+TEST(Wave, planes_that_show_shadows_alone) {
+  const BestTargetAgain restore;
+  std::int64_t darker = 0;
+  for (std::uint64_t seed = 301; seed <= 340; seed += step()) {
+    Scene scene = test::random_scene(seed);
+    if (!scene.plane) scene.plane = thesis_plane();
+    scene.plane->shadows_only = true;
+    scene.background = {0.9, 0.7, 0.5};
+    RenderSettings settings = test::random_settings(seed);
+    settings.shadows = settings.shadows || !settings.ambient_occlusion;
+    const Expected expected = one_after_the_other(scene, settings);
+    for (const Engine engine : {Engine::wide, Engine::reference}) {
+      const Tracer tracer = Tracer::build(scene, engine).value();
+      for (const std::string& target : test::targets_under_test()) {
+        ASSERT_TRUE(use_target(target));
+        const Result<Rendered> rendered = render(scene, tracer, settings);
+        ASSERT_TRUE(rendered);
+        expect_same(expected, *rendered, scene.name + " on " + target);
+        if (::testing::Test::HasFailure()) return;
+      }
+    }
+    Scene without = scene;
+    without.plane.reset();
+    const Expected empty = one_after_the_other(without, settings);
+    for (std::size_t i = 0; i < expected.film.radiance.size(); ++i)
+      darker += expected.film.radiance[i].x < empty.film.radiance[i].x ? 1 : 0;
+  }
+  EXPECT_GT(darker, 1000);
+}
+
 // A picture is rounded to binary32, which hides another order of a sum; so compare before the rounding.
 TEST(Wave, sums_are_the_same_before_they_are_rounded) {
   const BestTargetAgain restore;

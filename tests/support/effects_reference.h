@@ -77,7 +77,8 @@ class EffectsReference {
     const Ray ray = pixels_.at(x, y, lens);
     const SceneHit hit =
         scene_hit(scene_, transparent_ != nullptr ? transparent_->closest_opaque(ray) : tracer_.closest_hit(ray), ray);
-    if (!hit.found()) return {std::numeric_limits<double>::infinity(), kNothing};
+    const bool shadows_only = hit.id == kPlane && scene_.plane->shadows_only;
+    if (!hit.found() || shadows_only) return {std::numeric_limits<double>::infinity(), kNothing};
     return {hit.t * dot(to_double(ray.direction), pixels_.forward()), hit.id};
   }
 

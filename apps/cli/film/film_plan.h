@@ -39,6 +39,7 @@ struct FilmPlan {
     std::optional<Vec3d> turn_axis;    ///< unset: the picture's vertical
     std::vector<Vec3d> shifts;         ///< of the camera, in each frame of the film; empty: none
     std::vector<RigidMotion> motions;  ///< of the spheres, likewise
+    std::optional<Plane> floor;        ///< of the option `floor`
     ColourRange range_of_style;
     std::vector<ColourRange> ranges_of_looks;
   } fixed;

@@ -189,7 +189,8 @@ FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, c
   fixed.width_px = drawn.width();
   fixed.height_px = drawn.height();
   fixed.camera = input.scene.camera;
-  const bool user_places = first.eye || first.look_at || first.up || first.fit || first.zoom_to;
+  if (first.floor) fixed.floor = input.scene.plane->plane;
+  const bool user_places = first.eye || first.look_at || first.fit || first.zoom_to;
   if (plan.asked.path.moves() && !user_places && (!input.has_camera || first.view_from || first.view_of))
     fixed.camera = camera_around(input, fixed.camera, first, settings);
   if (plan.asked.path.turntable_deg != 0) fixed.turn_axis = axis_of_turntable(input, fixed.camera, options);

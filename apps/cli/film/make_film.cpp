@@ -175,8 +175,8 @@ class FilmSteps {
   // Once, of a camera that bihive has placed for the first frame.
   void tell_of_spheres_outside(const BuiltPicture& picture) {
     constexpr double kMostOutside = 0.05;  // of all spheres
-    const bool user_places = options_.eye || options_.look_at || options_.up || options_.fit || options_.zoom_to ||
-                             options_.zoom || (picture.input.has_camera && !options_.view_from && !options_.view_of);
+    const bool user_places = options_.eye || options_.look_at || options_.fit || options_.zoom_to || options_.zoom ||
+                             (picture.input.has_camera && !options_.view_from && !options_.view_of);
     if (told_of_spheres_outside_ || user_places || plan_.asked.path.moves() || !plan_.asked.follow.empty() ||
         picture.settings.view == View::tree)
       return;

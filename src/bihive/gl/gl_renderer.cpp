@@ -97,6 +97,9 @@ class GlRenderer::Implementation {
   Status set_scene(const Scene& scene, const Tree* tree) {
     if (has_clips(scene))
       return Error{"the graphics processor draws no cut spheres", "", 0, 0, "choose an engine of the CPU"};
+    if (scene.plane && scene.plane->shadows_only)
+      return Error{"the graphics processor draws no plane that shows shadows alone", "", 0, 0,
+                   "choose an engine of the CPU"};
     if (scene.spheres.has_images())
       return Error{"the graphics processor draws no replicated spheres", "", 0, 0, "choose an engine of the CPU"};
     Status status = scene_.set(scene, tree);

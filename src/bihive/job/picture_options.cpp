@@ -8,6 +8,7 @@
 #include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/floor.h"
 #include "bihive/job/report_text.h"
 #include "bihive/job/selection.h"
 #include "bihive/scene/colour_by.h"
@@ -173,6 +174,19 @@ void add_picture(Rows& rows) {
                             .take = into(&PictureRequest::background,
                                          [](const std::string& text) -> Result<std::string> {
                                            if (text == kNoBackground) return text;
+                                           const Result<Vec3d> colour = colour_from(text, Transfer::none);
+                                           if (!colour) return colour.error();
+                                           return text;
+                                         })},
+                           {.id = "floor",
+                            .value_name = "COLOUR|shadow",
+                            .help = "A plane below the spheres: in a colour, or seen by the shadows on it alone",
+                            .theme = OptionTheme::style,
+                            .ranks = kWhole,
+                            .in_window = false,
+                            .take = into(&PictureRequest::floor,
+                                         [](const std::string& text) -> Result<std::string> {
+                                           if (text == kFloorOfShadows) return text;
                                            const Result<Vec3d> colour = colour_from(text, Transfer::none);
                                            if (!colour) return colour.error();
                                            return text;

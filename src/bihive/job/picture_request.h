@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/geometry/plane.h"
 #include "bihive/image/film.h"
 #include "bihive/job/engine.h"
 #include "bihive/job/input.h"
@@ -42,6 +43,7 @@ struct FixedByFilm {
   ColourRange range_of_style;
   std::vector<ColourRange> ranges_of_looks;
   std::optional<RigidMotion> motion{};  ///< of all spheres, before looks
+  std::optional<Plane> floor{};         ///< of `floor`
   bool fits_each = false;               ///< the camera is that of the spheres, in place of `camera`
 };
 
@@ -71,6 +73,7 @@ struct PictureRequest {
   StyleOptions style;
   LabelOptions labels;
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
+  std::optional<std::string> floor;       ///< a valid colour, or kFloorOfShadows (job/floor.h)
   std::optional<std::int64_t> bits;       ///< 8 or 16
   double dots_per_inch = 0;               ///< 0: not stated
   std::optional<PrintSize> print_size;    ///< with `dots_per_inch` the size in `picture`

@@ -14,6 +14,7 @@
 #include "bihive/job/choose_labels.h"
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/floor.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/title_values.h"
 #include "bihive/render/draw_labels.h"
@@ -125,6 +126,7 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
       is_fixed ? request.fixed->camera : choose_camera(input, request, one_view(settings), selections, whole);
   if (const Status status = check_picture(settings, scene.camera.aperture); !status)
     fail_usage(status.error().message, status.error().hint);
+  lay_floor(request, settings, input);
   apply_look(request.style, input);
   leave_out_labels(user, scene, settings);
   const bool asks_for_fog = input.states_fog || user.has("fog") || user.has("fog_start") || user.has("fog_end");
@@ -142,6 +144,8 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (settings.stereo.form != StereoForm::none) refuse("stereo pictures", "without " + setting_name("stereo"));
   if (settings.cell_lines) refuse("edges of a cell", "without " + setting_name("cell"));
   if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: " + setting_name("samples") + " 4");
+  if (scene.plane && scene.plane->shadows_only)
+    refuse("floors of shadows", "with a colour of " + setting_name("floor"));
   if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
 }
@@ -259,6 +263,10 @@ ordered_json settings_json(const PictureRequest& request, const RenderSettings& 
     json["transfer"] = names_of(*parameter_named("transfer"))[static_cast<std::size_t>(scene.picture.transfer)];
   json["background"] = vector(scene.background);
   if (settings.transparent) json["transparent"] = true;
+  if (request.floor)
+    json["floor"] = {{"point", vector(scene.plane->plane.point)},
+                     {"normal", vector(scene.plane->plane.normal)},
+                     {"shadows_only", scene.plane->shadows_only}};
   if (request.bits) json["bits"] = *request.bits;
   if (request.dots_per_inch > 0) json["dpi"] = request.dots_per_inch;
   json["camera"] = {{"eye", vector(scene.camera.eye)},

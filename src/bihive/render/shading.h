@@ -35,6 +35,16 @@ LightShare soft_light_share(const PointLight& light, const LightPaths& paths, co
 Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,
                   const std::vector<Vec3d>* light_points, Vec3d visibility, std::int64_t& shadow_rays);
 
+/// What of direct and ambient light arrives at a place, for each colour, of what would if nothing hid it: diffuse terms
+/// of the material, 1 where there are none. `seen`: LightShare::seen of each light, read if the light is in front of
+/// the surface as a whole; others do not count. `lights`: local.
+Vec3d unshadowed_share(const Scene& scene, const std::vector<PointLight>& lights, const Surface& surface,
+                       const Vec3d* seen, Vec3d visibility);
+
+/// The light of a plane with ScenePlane::shadows_only; arguments and shadow rays as of local_light().
+Vec3d light_of_shadows_only(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,
+                            const std::vector<Vec3d>* light_points, Vec3d visibility, std::int64_t& shadow_rays);
+
 /// The mirrored ray.
 Ray reflected_ray(const Surface& surface);
 

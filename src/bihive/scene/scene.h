@@ -37,6 +37,10 @@ struct ScenePlane {
   Plane plane;
   Material material;
   std::optional<Checker> checker;
+  /// It is seen by its shadows alone: it sends the background, times the share of direct and ambient light that arrives
+  /// of what would without spheres (render/shading.h: unshadowed_share()). Where the picture has opacity instead of a
+  /// background, its shadows are black with the opacity of what is missing. Not drawn by the GPU.
+  bool shadows_only = false;
 };
 
 struct Scene {

@@ -225,6 +225,10 @@ class Extraction {
       checker.fade_distance = described.value("fade_distance", checker.fade_distance);
       plane.checker = checker;
     }
+    if (value.contains("shadows_only")) {
+      need_version(2, "/plane/shadows_only");
+      plane.shadows_only = value.at("shadows_only").get<bool>();
+    }
     loaded_.scene.plane = plane;
   }
 

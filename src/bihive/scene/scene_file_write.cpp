@@ -65,6 +65,7 @@ void write_plane(const ScenePlane& plane, std::string& out) {
     out += fmt::format(",\n    \"checker\": {{\"size\": {}, \"second_colour\": {}, \"fade_distance\": {}}}",
                        number(plane.checker->size), vector(plane.checker->second_colour),
                        number(plane.checker->fade_distance));
+  if (plane.shadows_only) out += ",\n    \"shadows_only\": true";
   out += "\n  },\n";
 }
 

@@ -344,7 +344,9 @@ void Drawing::draw_pixels(const Tile& tile, const std::vector<PixelPlace>& pixel
       const PixelPlace& pixel = pixels[static_cast<std::size_t>((first + i) / samples)];
       const bool edge =
           post_processing_.any() && post_processing_.is_cell_edge(tile, effects, pixel.x, pixel.y, sum.samples);
-      const bool hit = !settings_.transparent || hits_something(buffers, integrator, i);
+      const bool hit =
+          !settings_.transparent ||
+          (wave_scene_.shadows_only && shaded ? integrator.coverage(i) > 0 : hits_something(buffers, integrator, i));
       if (hit || edge) {
         Vec3d value = hit ? sample_value(buffers, integrator, i) : Vec3d{};
         if (post_processing_.any())

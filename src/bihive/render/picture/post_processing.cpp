@@ -133,6 +133,8 @@ void PostProcessing::find_depths(const Tile& grown, const CameraSample& sample, 
   integrator.find_first_hits(rays);
   for (std::int64_t i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(buffers.place[static_cast<std::size_t>(i)]);
+    // Fog and outlines do not know a plane that shows shadows alone.
+    if (wave_scene_.shadows_only && rays.id[i] == kPlane) rays.id[i] = kNothing;
     buffers.id[at] = rays.id[i];
     const Vec3d direction{double(wave.direction[0][i]), double(wave.direction[1][i]), double(wave.direction[2][i])};
     buffers.depth[at] = rays.id[i] == kNothing ? kBackgroundDepth : rays.t[i] * dot(direction, rays_.forward());

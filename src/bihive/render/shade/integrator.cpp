@@ -43,16 +43,19 @@ Vec3d Integrator::radiance(const Ray& primary, std::int64_t sample) {
     for (std::size_t i = 0; i < generation_.size(); ++i) find_hits(i, sum);
 
     for (const WeightedHit& item : hits_) {
-      deepest_hit_ = depth;
       const Surface surface = surface_at(scene_, generation_[item.ray].ray, item.hit, cuts_.get());
+      const bool shadows_only = surface.id == kPlane && scene_.plane->shadows_only;
+      if (!shadows_only) deepest_hit_ = depth;
       const int level = to_eye_ != nullptr ? faint_level(item.weight * to_eye_->stopping(surface.id)) : 0;
       Vec3d visibility{1, 1, 1};
       if (ambient_ != nullptr)
         visibility = ambient_visibility(scene_, paths_, surface, ambient_->sets.of_sample(sample, level),
                                         ambient_->distance, rays_.ambient);
       const std::vector<Vec3d>* points = light_points_ != nullptr ? &light_points_->of_sample(sample, level) : nullptr;
-      sum = sum + (item.weight * item.tint) *
-                      local_light(scene_, paths_, surface, shadows_, points, visibility, rays_.shadow);
+      const auto light_of = shadows_only ? light_of_shadows_only : local_light;
+      sum = sum +
+            (item.weight * item.tint) * light_of(scene_, paths_, surface, shadows_, points, visibility, rays_.shadow);
+      if (shadows_only) continue;
 
       // Follow the reflected and the transmitted light; a share of exactly 0 makes no ray, nor does a faint one.
       if (depth == recursion_) continue;

@@ -135,6 +135,38 @@ Vec3d local_light(const Scene& scene, const LightPaths& paths, const Surface& su
   return material.colour * light + specular;
 }
 
+Vec3d unshadowed_share(const Scene& scene, const std::vector<PointLight>& lights, const Surface& surface,
+                       const Vec3d* seen, Vec3d visibility) {
+  const Material& material = surface.material;
+  Vec3d open = material.ambient * scene.ambient_light;
+  Vec3d arriving = open * visibility;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const LightOffset centre(lights[i].position, surface);
+    if (!centre.in_front() || centre.towards < lights[i].radius) continue;
+    const Vec3d unhidden = (material.diffuse * centre.facing()) * lights[i].colour;
+    open = open + unhidden;
+    arriving = arriving + unhidden * seen[i];
+  }
+  Vec3d share{1, 1, 1};
+  for (int channel = 0; channel < 3; ++channel)
+    if (arriving[channel] < open[channel]) share[channel] = arriving[channel] / open[channel];
+  return share;
+}
+
+Vec3d light_of_shadows_only(const Scene& scene, const LightPaths& paths, const Surface& surface, bool shadows,
+                            const std::vector<Vec3d>* light_points, Vec3d visibility, std::int64_t& shadow_rays) {
+  const std::vector<PointLight> lights = local_lights(scene);
+  std::vector<Vec3d> seen(lights.size(), Vec3d{1, 1, 1});
+  for (std::size_t i = 0; shadows && i < lights.size(); ++i) {
+    const LightOffset centre(lights[i].position, surface);
+    if (light_points != nullptr && lights[i].radius > 0)
+      seen[i] = soft_light_share(lights[i], paths, surface, *light_points, shadow_rays).seen;
+    else if (centre.in_front())
+      seen[i] = arriving(paths, surface, centre.offset, shadow_rays);
+  }
+  return scene.background * unshadowed_share(scene, lights, surface, seen.data(), visibility);
+}
+
 Ray reflected_ray(const Surface& surface) {
   return ray_from(surface, mirrored(surface), surface.from_inside);
 }

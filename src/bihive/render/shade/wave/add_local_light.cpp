@@ -35,6 +35,23 @@ void find_shadow_rays_on_target(const WaveSurfaces& surfaces, std::int64_t first
   }
 }
 
+// Light of the lanes on a plane that shows shadows alone, in place of local_light().
+HWY_NOINLINE Lanes3 with_shadows_only(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t first,
+                                      const steps::LightReceived& received, const ColourRows& visibility,
+                                      Lanes3 light) {
+  alignas(64) double sent[3][kLanes];
+  hn::Store(light.x, Tag(), sent[0]);
+  hn::Store(light.y, Tag(), sent[1]);
+  hn::Store(light.z, Tag(), sent[2]);
+  const std::int64_t n = std::min<std::int64_t>(surfaces.count - first, kLanes);
+  for (std::int64_t k = 0; k < n; ++k) {
+    if (surfaces.id[first + k] != kPlane) continue;
+    const Vec3d own = steps::light_of_shadows_only(scene, surfaces, first + k, received, visibility);
+    for (int channel = 0; channel < 3; ++channel) sent[channel][k] = own[channel];
+  }
+  return {hn::Load(Tag(), sent[0]), hn::Load(Tag(), sent[1]), hn::Load(Tag(), sent[2])};
+}
+
 HWY_INLINE void add_to_owners(Lanes3 light, const WaveSurfaces& surfaces, std::int64_t i, WaveSums& sums) {
   // Neighbouring surfaces mostly have neighbouring owners.
   const std::int64_t first = surfaces.owner[i];
@@ -66,8 +83,9 @@ void add_local_light_on_target(const WaveScene& scene, const WaveSurfaces& surfa
     surface.cosine = hn::Neg(dot(surface.incoming, surface.normal));
     surface.id = load(surfaces.id, i);
     surface.material_inside = load(surfaces.material_inside, i);
-    const Lanes3 light =
+    Lanes3 light =
         local_light(scene, there, surface, received, i, visibility ? load(visibility, i) : all(Vec3d{1, 1, 1}));
+    if (HWY_UNLIKELY(scene.shadows_only)) light = with_shadows_only(scene, surfaces, i, received, visibility, light);
     const Lanes weight = load(surfaces.weight, i);
     Lanes3 weights{weight, weight, weight};
     if (HWY_UNLIKELY(surfaces.has_tints)) weights = multiply(weight, load(surfaces.tint, i));

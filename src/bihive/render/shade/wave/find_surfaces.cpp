@@ -104,8 +104,10 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
   has_attributes = !attributes.colour.empty() || !attributes.opacity.empty();
   if (!drawn.plane) return;
   plane = local_plane(drawn);
+  shadows_only = drawn.plane->shadows_only;
   plane_material = static_cast<std::int64_t>(materials.size());
   Material material = drawn.plane->material;
+  if (shadows_only) material.reflective = material.transmissive = 0;
   materials.push_back(material);
   if (!drawn.plane->checker) return;
   const Vec3d first = material.colour;

@@ -37,6 +37,7 @@ struct WaveScene {
   double faintest_ray = 0;             ///< rays with less weight are not sent on: kFaintestRay with OpacityRule::once
   std::int64_t plane_material = 0;     ///< the plane's first
   Plane plane{};                       ///< local, if the scene has one
+  bool shadows_only = false;           ///< ScenePlane::shadows_only
   std::vector<PointLight> lights;      ///< local
   PlaneAxes axes{};                    ///< of the plane, if it has a checker
   std::shared_ptr<const CutSet> cuts;  ///< null: all spheres are whole
@@ -278,7 +279,15 @@ struct LightReceived {
   ColourRows share;                      ///< a row for each light, what arrives of one that is not hidden; none: all
   /// A row for each light with a radius, of LightShare; none: no shadows, or no light has a radius.
   ColourRows facing, seen;
+  /// Of owners, if the picture has opacity and a plane that shows shadows alone: the plane gives its owner no light,
+  /// and this share.
+  double* coverage = nullptr;
 };
+
+/// light_of_shadows_only() (render/shading.h) of the surface with this number, which is on the plane. In a picture with
+/// opacity it sets the owner's coverage instead.
+Vec3d light_of_shadows_only(const WaveScene& scene, const WaveSurfaces& surfaces, std::int64_t number,
+                            const LightReceived& received, const ColourRows& visibility);
 
 /// Adds local_light() times weight and tint to the owners. `visibility`: of each surface; none: 1.
 void add_local_light(const WaveScene& scene, const WaveSurfaces& surfaces, const LightReceived& received,

@@ -40,6 +40,7 @@ void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners, std::int64
   if (settings_.depth) deepest_hit_.assign(static_cast<std::size_t>(owners), 0);
   passing_.clear();
   coverage_.clear();
+  if (covers_by_shadows()) coverage_.assign(static_cast<std::size_t>(owners), kUncovered);
   Wave& first = primaries(buffers);
   rays_.primary += first.count;
   trace_part({&first, 0, first.count}, 1, buffers);
@@ -111,7 +112,8 @@ void WaveIntegrator::trace_layers(const WavePart& rays, int depth, WaveBuffers& 
     for (int channel = 0; channel < 3; ++channel) std::fill_n(buffers.sums.light[channel].data(), rays.count(), 0.0);
     buffers.sums.empty = false;
     passing_.assign(static_cast<std::size_t>(rays.count()), 1.0);
-    if (settings_.without_background) coverage_.assign(static_cast<std::size_t>(rays.count()), 1.0);
+    if (settings_.without_background && coverage_.empty())
+      coverage_.assign(static_cast<std::size_t>(rays.count()), 1.0);
   }
   const auto owner = [&](std::int64_t i) {
     return rays.wave->starts_at_eye ? rays.first + i : rays.wave->owner[rays.first + i];
@@ -187,7 +189,8 @@ void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffer
   const bool last = depth == settings_.recursion;
   Wave* const next = last ? nullptr : &buffers.generations[static_cast<std::size_t>(depth)];
   if (next != nullptr) next->reset(2 * rays.count(), rays.wave->has_tints);
-  if (rays.wave->starts_at_eye && last && settings_.light && !with_shadows() && !with_ambient() && !settings_.depth) {
+  if (rays.wave->starts_at_eye && last && settings_.light && !with_shadows() && !with_ambient() && !settings_.depth &&
+      !scene_.shadows_only) {
     steps::shade_primaries(scene_, rays, buffers.t.data(), buffers.id.data(), buffers.sums);
     buffers.sums.empty = false;
     return;
@@ -208,6 +211,7 @@ void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffer
     if (cancelled()) return;
     steps::LightReceived received;
     received.surfaces = buffers.surfaces.count;
+    if (covers_by_shadows() && depth == 1) received.coverage = coverage_.data();
     if (with_shadows()) received.hidden = buffers.hidden.data();
     if (with_shadows() && to_light() != nullptr) received.share = ColourRows(buffers.share, channels());
     if (with_shadows() && settings_.light_points != nullptr) {
@@ -241,13 +245,19 @@ void WaveIntegrator::shade(const WavePart& rays, int depth, const HitSpan& hits,
   const std::int64_t known = surfaces.count;
   steps::find_surfaces(scene_, rays, hits.t, hits.sphere_id, surfaces, buffers.sums);
   if (settings_.depth)
-    for (std::int64_t k = known; k < surfaces.count; ++k)
-      deepest_hit_[static_cast<std::size_t>(surfaces.owner[k])] = static_cast<std::uint8_t>(depth);
+    for (std::int64_t k = known; k < surfaces.count; ++k) {
+      if (scene_.shadows_only && surfaces.id[k] == kPlane) continue;
+      const auto owner = static_cast<std::size_t>(surfaces.owner[k]);
+      deepest_hit_[owner] = static_cast<std::uint8_t>(depth);
+      if (covers_by_shadows() && coverage_[owner] == kUncovered) coverage_[owner] = 1;
+    }
   if (with_shadows()) {
     const std::vector<PointLight>& lights = scene_.lights;
     if (!lights.empty() && !is_soft(lights[0])) steps::find_shadow_rays(surfaces, known, lights[0], buffers.shadows);
   } else if (settings_.light && !with_ambient()) {
-    steps::add_local_light(scene_, surfaces, {}, {}, buffers.sums);
+    steps::LightReceived received;
+    if (covers_by_shadows() && depth == 1) received.coverage = coverage_.data();
+    steps::add_local_light(scene_, surfaces, received, {}, buffers.sums);
   }
   if (next == nullptr) return;
   const steps::SpawnedRays spawned = steps::spawn_secondary_rays(scene_, surfaces, known, *next);

@@ -105,9 +105,10 @@ class WaveIntegrator {
   /// the plane or the background.
   double passing(std::int64_t owner) const { return passing_.empty() ? 1 : passing_[static_cast<std::size_t>(owner)]; }
   /// The share of the picture that the owner's light covers: less than 1 only without_background, and where nothing but
-  /// transparent spheres stands before it.
+  /// transparent spheres, or a shadow on a plane that shows nothing else, stands before it.
   double coverage(std::int64_t owner) const {
-    return coverage_.empty() ? 1 : coverage_[static_cast<std::size_t>(owner)];
+    const double covered = coverage_.empty() ? 1 : coverage_[static_cast<std::size_t>(owner)];
+    return covered == kUncovered ? 0 : covered;
   }
   const RenderCounts& rays() const { return rays_; }
 
@@ -145,6 +146,7 @@ class WaveIntegrator {
   bool is_soft(const PointLight& light) const { return settings_.light_points != nullptr && light.radius > 0; }
   bool with_shadows() const { return settings_.light && settings_.shadows; }
   bool with_ambient() const { return settings_.light && settings_.ambient != nullptr; }
+  bool covers_by_shadows() const { return settings_.without_background && scene_.shadows_only; }
   bool cancelled() const { return cancel_ != nullptr && cancel_->cancelled(); }
 
   const WaveScene& scene_;
@@ -155,6 +157,7 @@ class WaveIntegrator {
   std::int64_t first_sample_ = 0;
   std::vector<std::uint8_t> deepest_hit_;
   std::vector<double> passing_, coverage_;  // empty: 1 of all
+  static constexpr double kUncovered = -1;  // of an owner whose rays have hit nothing so far
 };
 
 }  // namespace bihive
