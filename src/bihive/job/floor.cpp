@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "bihive/base/setting_name.h"
-#include "bihive/geometry/each_sphere.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/job/failure.h"
 #include "bihive/scene/clips.h"
@@ -21,10 +20,10 @@ Vec3d up_in_world(const PictureRequest& request, const Input& input) {
 Plane plane_below(const Scene& scene, Vec3d up) {
   double lowest = std::numeric_limits<double>::infinity();
   const RemainingSpheres remaining(scene);
-  for_each_sphere(remaining.set(), [&](std::int64_t, Vec3d centre, double radius) {
-    lowest = std::min(lowest, dot(up, centre) - radius);
-  });
-  return {(remaining.set().empty() ? 0 : lowest) * up, up};
+  const SphereSet& spheres = remaining.set();
+  for (std::int64_t id = 0; id < spheres.total_size(); ++id)
+    lowest = std::min(lowest, dot(up, spheres.centre(id)) - spheres.radius(id));
+  return {(spheres.empty() ? 0 : lowest) * up, up};
 }
 
 }  // namespace
