@@ -63,17 +63,6 @@ void add_measures(std::vector<Measure>& measures, const std::string& kind, std::
   }
 }
 
-double value_of_measure(const Measure& measure, const SphereSet& spheres, const std::optional<Lattice>& lattice) {
-  // Each sphere at its image that is nearest to the one before.
-  std::array<Vec3d, 4> at;
-  for (std::size_t i = 0; i < measure.count; ++i) {
-    const Vec3d centre = spheres.centre(measure.ids[i]);
-    at[i] = i == 0 ? centre : at[i - 1] + shortest_image(centre - at[i - 1], lattice);
-  }
-  if (measure.count == 2) return length(at[1] - at[0]);
-  return measure.count == 3 ? angle_deg(at[0], at[1], at[2]) : dihedral_deg(at[0], at[1], at[2], at[3]);
-}
-
 Row row_of(std::int64_t frame, const SphereSet& spheres, const std::vector<Measure>& measures) {
   Row row;
   row.frame = frame;
@@ -84,7 +73,7 @@ Row row_of(std::int64_t frame, const SphereSet& spheres, const std::vector<Measu
         row.fault = fmt::format("frame {} has {} sphere{}, from 0: there is no sphere {}", frame, spheres.size(),
                                 spheres.size() == 1 ? "" : "s", measure.ids[i]);
     if (!row.fault.empty()) return row;
-    row.values.push_back(value_of_measure(measure, spheres, lattice));
+    row.values.push_back(measured(spheres, {measure.ids.data(), measure.count}, lattice));
   }
   return row;
 }

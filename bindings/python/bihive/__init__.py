@@ -12,6 +12,7 @@ verify, again       a PNG of a picture drawn again and compared, or with changes
 Tree                hits of rays
 view                the page in a browser, with spheres from memory
 select, stats       spheres that match an expression; statistics of the trees
+distance            between centres of spheres; angle, dihedral
 colour_map          colours of numbers
 Error               the base of all exceptions of this package
 """
@@ -21,6 +22,7 @@ from ._camera import Look, Orthographic, Perspective, Style
 from ._errors import Error, FileError, InputError, InputWarning, MissingError, UsageError
 from ._figures import Verdict, again, verify
 from ._film import film
+from ._measures import angle, dihedral, distance
 from ._picture import Picture
 from ._render import render
 from ._spheres import Spheres, colour_map, convert, read, select, stats
@@ -47,8 +49,11 @@ __all__ = [
     "View",
     "__version__",
     "again",
+    "angle",
     "colour_map",
     "convert",
+    "dihedral",
+    "distance",
     "film",
     "read",
     "render",

@@ -15,6 +15,7 @@
 #include "bihive/base/write_file.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/geometry/lattice.h"
+#include "bihive/geometry/measures.h"
 #include "bihive/geometry/rounding_loss.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/io/bundled.h"
@@ -211,6 +212,22 @@ std::array<bool, 3> periodic(const Spheres& spheres) {
 }
 
 // `name` names the argument in errors. With `periodic`, distances are to the nearest image in the set's periodic cell.
+// Of each row of positions, which are in range.
+py::array_t<double> measured_rows(const Spheres& spheres, const py::array_t<std::int64_t, py::array::c_style>& rows,
+                                  bool periodic) {
+  const auto count = rows.shape(0);
+  const auto each = static_cast<std::size_t>(rows.shape(1));
+  py::array_t<double> made(count);
+  double* const values = made.mutable_data();
+  const std::int64_t* const ids = rows.data();
+  const py::gil_scoped_release unlocked;
+  const SphereSet& set = spheres.file.spheres;
+  const std::optional<Lattice> lattice = periodic ? Lattice::of(set.cell()) : std::nullopt;
+  for (py::ssize_t i = 0; i < count; ++i)
+    values[i] = measured(set, {ids + static_cast<std::size_t>(i) * each, each}, lattice);
+  return made;
+}
+
 py::array_t<bool> select(const Spheres& spheres, const std::string& expression, const std::string& name,
                          bool periodic) {
   std::vector<std::uint8_t> mask;
@@ -351,6 +368,7 @@ void bind_spheres(py::module_& module) {
       .def_property_readonly("rules", [](const Spheres& s) { return s.file.rules; })
       .def_property_readonly("warnings", [](const Spheres& s) { return safe_texts(s.file.warnings); })
       .def("select", select)
+      .def("measured", measured_rows)
       .def("what_there_is",
            [](const Spheres& s, const std::string& expression) {
              return safe_texts({what_there_is(s.file.spheres, expression)}).front();

@@ -1,6 +1,7 @@
 #include "bihive/geometry/measures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -40,6 +41,16 @@ double dihedral_deg(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
   const Vec3d before = cross(first, axis), after = cross(axis, last);
   if (!(dot(before, before) > 0 && dot(after, after) > 0)) return kUnknown;
   return direction_deg(length(axis) * dot(first, after), dot(before, after));
+}
+
+double measured(const SphereSet& spheres, std::span<const std::int64_t> ids, const std::optional<Lattice>& lattice) {
+  std::array<Vec3d, 4> at;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const Vec3d centre = spheres.centre(ids[i]);
+    at[i] = i == 0 ? centre : at[i - 1] + shortest_image(centre - at[i - 1], lattice);
+  }
+  if (ids.size() == 2) return length(at[1] - at[0]);
+  return ids.size() == 3 ? angle_deg(at[0], at[1], at[2]) : dihedral_deg(at[0], at[1], at[2], at[3]);
 }
 
 Vec3d shortest_image(Vec3d vector, const std::optional<Lattice>& lattice) {

@@ -1,9 +1,12 @@
 // Distances and angles of positions, for measuring. In binary64, the same bits on every machine.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "bihive/geometry/lattice.h"
+#include "bihive/geometry/sphere_set.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
@@ -14,6 +17,10 @@ double angle_deg(Vec3d a, Vec3d b, Vec3d c);
 /// The dihedral angle of the chain a-b-c-d in degrees, above -180 to 180: seen along b-c, the turn from a to d,
 /// clockwise positive [IUPAC1970]. NaN where three positions in turn lie on a line.
 double dihedral_deg(Vec3d a, Vec3d b, Vec3d c, Vec3d d);
+
+/// Between the centres of two to four spheres of a set: their distance, angle or dihedral angle, each sphere at its
+/// image that is nearest to the one before. `lattice`: of the set's cell; none: the spheres alone.
+double measured(const SphereSet& spheres, std::span<const std::int64_t> ids, const std::optional<Lattice>& lattice);
 
 /// Of the vectors that differ from this one by vectors of the lattice, a shortest one; itself without a lattice, or
 /// where it is so long that binary64 cannot tell.
