@@ -352,6 +352,7 @@ TEST(ViewerLook, every_effect_is_the_programs) {
        },
        [](Scene&, RenderSettings& r) {
          r.labels = {true, false, true, "HIV-1", std::nullopt};
+         r.fog.reset();
        }},
       {"scale bar",
        [](ViewerSettings& s) {

@@ -129,9 +129,7 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   lay_floor(request, settings, input);
   apply_look(request.style, input);
   leave_out_labels(user, scene, settings);
-  const bool asks_for_fog = input.states_fog || user.has("fog") || user.has("fog_start") || user.has("fog_end");
-  // Colours equal their keys.
-  if (settings.labels.legend && !asks_for_fog) settings.fog.reset();
+  if (leaves_out_fog(settings, user, input.states_fog)) settings.fog.reset();
   return settings;
 }
 

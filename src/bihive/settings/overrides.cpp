@@ -65,6 +65,11 @@ void Overrides::apply_to(PictureSettings& settings) const {
   }
 }
 
+bool leaves_out_fog(const PictureSettings& picture, const Overrides& user, bool scene_states_fog) {
+  return picture.labels.legend && !scene_states_fog && !user.has("fog") && !user.has("fog_start") &&
+         !user.has("fog_end");
+}
+
 PictureSettings LayeredSettings::result() const {
   PictureSettings settings = below;
   user.apply_to(settings);

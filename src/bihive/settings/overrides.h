@@ -38,6 +38,10 @@ class Overrides {
 /// A JSON object with the id and the value of each.
 std::string overrides_to_json(const Overrides& overrides);
 
+/// Whether the fog of a style is left out: in a picture with a legend, so that colours equal their keys, unless the
+/// scene or its user asks for fog. `picture`: the result of all layers.
+bool leaves_out_fog(const PictureSettings& picture, const Overrides& user, bool scene_states_fog);
+
 /// Two layers: the settings of a scene, and over them those of its user.
 struct LayeredSettings {
   PictureSettings below;

@@ -18,6 +18,7 @@ ShownScene::ShownScene(LoadedScene loaded)
     : scene(std::move(loaded.scene)),
       has_camera(loaded.has_camera),
       has_lights(loaded.has_lights),
+      states_fog(loaded.states_fog),
       rig(std::move(loaded.rig)),
       own_camera(scene.camera) {
   const SphereSet::Bounds bounds = scene.spheres.bounds();
@@ -56,6 +57,7 @@ void ShownScene::take_look_of(ShownScene&& other) {
   scene.spheres = std::move(spheres);
   rig = std::move(other.rig);
   has_lights = other.has_lights;
+  states_fog = other.states_fog;
 }
 
 void ShownScene::look_by(const ViewerSettings& settings) {

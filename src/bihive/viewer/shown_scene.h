@@ -37,7 +37,7 @@ SceneFacts facts_of(const LoadedScene& loaded);
 /// Never moved in memory: its trees refer to its spheres.
 struct ShownScene {
   Scene scene;  ///< at least one sphere
-  bool has_camera = false, has_lights = false;
+  bool has_camera = false, has_lights = false, states_fog = false;
   LightRig rig;         ///< the lights of a scene without its own
   Camera own_camera;    ///< if it has one
   double diagonal = 0;  ///< of the spheres' box

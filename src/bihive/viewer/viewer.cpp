@@ -344,6 +344,7 @@ class Viewer::Implementation {
     PictureSettings& below = settings.picture.below;
     below = shown.scene.picture;
     below.samples_per_pixel = std::min(below.samples_per_pixel, kMostSamples);
+    if (leaves_out_fog(settings.picture.result(), settings.picture.user, shown.states_fog)) below.fog.reset();
     if (settings.camera.aperture == 0) return;
     below.adaptive_samples = false;
     if (shown.own_camera.aperture == 0) use_lens_samples(below);
