@@ -8,7 +8,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/bih/tree.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/select/selection.h"
@@ -24,6 +26,7 @@ Error unexpected(const std::string& expected, const std::string& found) {
 // Parses a number; the whole text must be it.
 template <class T>
 std::optional<T> whole(std::string_view text) {
+  if constexpr (std::is_same_v<T, double>) return parse_double(text);  // not in every C++ library's from_chars()
   T value{};
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
