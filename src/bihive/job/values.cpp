@@ -26,11 +26,14 @@ Error unexpected(const std::string& expected, const std::string& found) {
 // Parses a number; the whole text must be it.
 template <class T>
 std::optional<T> whole(std::string_view text) {
-  if constexpr (std::is_same_v<T, double>) return parse_double(text);  // not in every C++ library's from_chars()
-  T value{};
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  if constexpr (std::is_same_v<T, double>) {
+    return parse_double(text);  // not every C++ library's from_chars() knows them
+  } else {
+    T value{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+  }
 }
 
 // Parses numbers separated by commas; empty if one is not a T.
