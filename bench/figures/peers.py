@@ -1,6 +1,7 @@
 """The bundled molecule by other programs, each with several numbers of threads: which of them repeat their bits?"""
 
 import hashlib
+import os
 import pathlib
 import shutil
 import subprocess
@@ -26,15 +27,14 @@ def pixels_hash(path):
 
 
 def run(command, folder):
-    subprocess.run([str(word) for word in command], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+    # Debian's PyMOL needs Debian's Python.
+    environment = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}
+    subprocess.run([str(word) for word in command], cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
 
 
 def tachyon(pdb, folder, occlusion):
     (eye, middle), (width, height) = CAMERA, SIZE
-    lines = ["BEGIN_SCENE", f"RESOLUTION {width} {height}", "SHADER_MODE FULL", "TRANS_VMD"]
-    if occlusion:
-        lines += ["AMBIENT_OCCLUSION", "AMBIENT_COLOR 0.8 0.8 0.8", "SAMPLES 64", "END_AMBIENT_OCCLUSION"]
-    lines += ["END_SHADER_MODE", "CAMERA", "ZOOM 3.7", f"ASPECTRATIO {height / width}", "ANTIALIASING 2", "RAYDEPTH 4",
+    lines = ["BEGIN_SCENE", f"RESOLUTION {width} {height}", "SHADER_MODE FULL", "TRANS_VMD", "END_SHADER_MODE", "CAMERA", "ZOOM 3.7", f"ASPECTRATIO {height / width}", "ANTIALIASING 2", "RAYDEPTH 4",
               f"CENTER {eye[0]} {eye[1]} {-eye[2]}", "VIEWDIR 0 0 1", "UPDIR 0 1 0", "END_CAMERA", "BACKGROUND 1 1 1",
               f"LIGHT CENTER {eye[0] - 60} {eye[1] + 60} {-eye[2]} RAD 0.1 COLOR 0.8 0.8 0.8"]
     for element, (x, y, z) in atoms_of(pdb):
@@ -43,7 +43,8 @@ def tachyon(pdb, folder, occlusion):
                      f"COLOR {r} {g} {b} TEXFUNC 0")
     (folder / "scene.dat").write_text("\n".join([*lines, "END_SCENE", ""]))
     for threads in THREADS:
-        run(["tachyon", "scene.dat", "-numthreads", threads, "-format", "TARGA", "-o", f"tachyon{threads}.tga"], folder)
+        sky = ["-add_skylight", "0.8", "-skylight_samples", "64"] if occlusion else []
+        run(["tachyon", "scene.dat", "-fullshade", *sky, "-numthreads", threads, "-format", "TARGA", "-o", f"tachyon{threads}.tga"], folder)
         yield folder / f"tachyon{threads}.tga"
 
 
@@ -63,10 +64,12 @@ def povray(pdb, folder, occlusion):
 
 
 def pymol(pdb, folder, occlusion):
+    """Its ambient occlusion is for surfaces, not for spheres."""
     width, height = SIZE
+    if occlusion:
+        return
     for threads in THREADS:
         steps = ["hide everything", "show spheres", "bg_color white", f"set max_threads, {threads}", "set antialias, 2",
-                 *(["set ray_trace_mode, 1", "set ambient_occlusion_mode, 1", "set ambient_occlusion_scale, 10"] if occlusion else []),
                  f"ray {width}, {height}", f"png pymol{threads}.png"]
         run(["pymol", "-cq", pdb, *[word for step in steps for word in ("-d", step)]], folder)
         yield folder / f"pymol{threads}.png"
@@ -82,7 +85,8 @@ def bihive(program):
 
 
 def repeats(program, pdb, folder):
-    """A row for each program: its name, and for sharp shadows and for soft light whether all its pictures are equal; None: it is not here."""
+    """A row for each program: its name, and for sharp shadows and for soft light whether all its pictures are equal; None: it is not here, or
+    has no such light."""
     rows = []
     for name, draw in [("bihive", bihive(program)), ("Tachyon", tachyon), ("POV-Ray", povray), ("PyMOL", pymol)]:
         row = {"program": name}
@@ -92,6 +96,7 @@ def repeats(program, pdb, folder):
                 continue
             folder_of = pathlib.Path(folder) / f"{name}-{kind}"
             folder_of.mkdir(parents=True, exist_ok=True)
-            row[kind] = len({pixels_hash(path) for path in draw(pdb, folder_of, occlusion)}) == 1
+            pictures = {pixels_hash(path) for path in draw(pdb, folder_of, occlusion)}
+            row[kind] = len(pictures) == 1 if pictures else None
         rows.append(row)
     return rows
