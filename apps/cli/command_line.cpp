@@ -147,7 +147,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
   add_input<PictureRequest>(command, options);
   add_path(command, "-o,--output", options.output,
-           "The picture: PNG, or OpenEXR (.exr); - writes a PNG to the standard\noutput");
+           "The picture: PNG, TIFF (.tif) or OpenEXR (.exr); - writes a PNG to the standard\noutput");
   add_value(command, "--layers", options.layers, "L,L...",
             ".exr: its layers: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
   add_options_by_theme(command, options);
@@ -172,7 +172,7 @@ void add_again(CLI::App& app, AgainOptions& options, Request& request) {
   command.get_option("INPUT")->required(false);
   command
       .add_option("-o,--output", options.changes.output,
-                  "The new picture, PNG, TIFF or OpenEXR (FIGURE-again.png, or with the\nending of FIGURE)")
+                  "The new picture or film (FIGURE-again, with the ending of FIGURE)")
       ->type_name("FILE");
   command.add_flag_callback(
       "--no-metadata", [&options] { options.changes.metadata = false; }, kNoMetadata);

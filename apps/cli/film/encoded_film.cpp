@@ -118,7 +118,7 @@ class EncodedFilm final : public FilmSink {
 
   // The SHA-256 of its pictures, in a file beside it.
   std::string sha256_name(const Segment& segment) const {
-    return fmt::format("segment-{:08}-{:08}.sha256", segment.begin, segment.end);
+    return fmt::format("film.sha256-{:08}-{:08}", segment.begin, segment.end);
   }
   std::vector<std::string> kept_sha256(const OwnFolder& folder, const Segment& segment) const {
     constexpr std::size_t kDigits = 64;
