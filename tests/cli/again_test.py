@@ -91,6 +91,12 @@ class Again(AgainTest):
                   "--select", "chain B", "--hide", name="c.png")
         self.assertEqual(self.read("b.png"), self.read("c.png"))
 
+    def test_an_option_and_a_selection_together(self):
+        self.draw("demo", *SMALL, "--style", "flat")
+        self.succeed("again", "a.png", "--size", "30x20", "--select", "chain B", "--hide", "-o", "b.png")
+        self.draw("demo", "--size", "30x20", "--style", "flat", "--select", "chain B", "--hide", name="c.png")
+        self.assertEqual(self.read("b.png"), self.read("c.png"))
+
     def test_another_input_is_drawn_alike(self):
         self.write("m.xyz", MOLECULE)
         self.write("n.xyz", MOLECULE.replace("1.2", "1.5"))
