@@ -21,6 +21,7 @@ namespace bihive::cli {
 namespace {
 
 constexpr std::int64_t kLargestPort = 65535;
+constexpr const char* kSceneSave = "scene-save";
 
 // An option with one value of its own syntax: `parse` turns the text into a Result.
 template <class Target, class Parse>
@@ -122,7 +123,8 @@ void begin_theme(CLI::App& command, const std::string& heading) {
 }
 
 // The options of a picture's appearance, for commands that draw one or many. `without`: ids to leave out.
-void add_options_by_theme(CLI::App& command, RenderOptions& options, std::vector<std::string_view> without = {}) {
+void add_options_by_theme(CLI::App& command, RenderOptions& options, std::vector<std::string_view> without = {},
+                          bool with_json = true) {
   static constexpr std::pair<OptionTheme, const char*> kThemes[] = {
       {OptionTheme::picture, "Picture"},       {OptionTheme::style, "Style and light"},
       {OptionTheme::camera, "Camera"},         {OptionTheme::engine, "Engine"},
@@ -132,7 +134,7 @@ void add_options_by_theme(CLI::App& command, RenderOptions& options, std::vector
   for (const auto& [theme, heading] : kThemes) {
     begin_theme(command, heading);
     add_picture_options(command, theme, options, /*of_window=*/false, without);
-    if (theme == OptionTheme::engine) add_json_flag(command, options.json);
+    if (theme == OptionTheme::engine && with_json) add_json_flag(command, options.json);
   }
   begin_theme(command, "Other options");
 }
@@ -145,7 +147,7 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
       "bihive render scenario2 -o corners.png --size 640x480 --recursion 3 --count 256", options, request);
   add_input<PictureRequest>(command, options);
   add_path(command, "-o,--output", options.output,
-           "The picture: PNG, or OpenEXR (.exr); - writes a PNG to the standard\noutput");
+           "The picture: PNG, TIFF (.tif) or OpenEXR (.exr); - writes a PNG to the standard\noutput");
   add_value(command, "--layers", options.layers, "L,L...",
             ".exr: its layers: radiance, albedo, depth, normal, id, attribute:NAME\n(radiance)", layers_from_text);
   add_options_by_theme(command, options);
@@ -161,13 +163,16 @@ void add_render(CLI::App& app, RenderOptions& options, Request& request) {
 }
 
 void add_again(CLI::App& app, AgainOptions& options, Request& request) {
-  CLI::App& command = add_command(app, "again", "Draw the picture of a PNG that bihive made once more, or with changes",
-                                  "bihive again figure.png -o larger.png --size 2400x1600",
-                                  "bihive again figure.png other_molecule.pdb -o other.png", options, request);
-  command.add_option("FIGURE", options.figure, "A PNG that bihive made")->type_name("")->required();
+  CLI::App& command =
+      add_command(app, "again", "Draw the picture of a file that bihive made once more, or with changes",
+                  "bihive again figure.png -o larger.png --size 2400x1600",
+                  "bihive again figure.png other_molecule.pdb -o other.png", options, request);
+  command.add_option("FIGURE", options.figure, "A picture or a film that bihive made")->type_name("")->required();
   add_input<PictureRequest>(command, options.changes);
   command.get_option("INPUT")->required(false);
-  command.add_option("-o,--output", options.changes.output, "The new picture, a PNG (FIGURE-again.png)")
+  command
+      .add_option("-o,--output", options.changes.output,
+                  "The new picture or film (FIGURE-again, with the ending of FIGURE)")
       ->type_name("FILE");
   command.add_flag_callback(
       "--no-metadata", [&options] { options.changes.metadata = false; }, kNoMetadata);
@@ -180,8 +185,8 @@ void add_verify(CLI::App& app, VerifyOptions& options, Request& request) {
   command
       .add_option(
           "FIGURE", options.figures,
-          "PNG files that bihive made, or folders of them; last, if it lies neither\nbeside the figure nor here, "
-          "the input")
+          "Pictures and films that bihive made, or folders of them; last, if it lies neither\nbeside the figure nor "
+          "here, the input")
       ->type_name("")
       ->required();
   command.add_option("--difference", options.difference, "Written: a picture of where they differ; of one figure")
@@ -247,6 +252,8 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
   add_value(command, "--shard", options.shard, "i/N",
             "Draw every N-th picture from number i on; another command joins all N", shard_from);
   command.add_flag("--join", options.join, "Join the shards of the film -o, without INPUT");
+  command.add_flag_callback(
+      "--no-metadata", [&picture] { picture.metadata = false; }, kNoMetadata);
   add_options_by_theme(command, picture, {"frame"});
 }
 
@@ -312,6 +319,19 @@ void add_scene(CLI::App& app, SceneOptions& options, Request& request) {
   add_input_option(command, "radius", options.input);
   add_path(command, "-o,--output", options.output,
            ".npy: x, y, z, r as float32 (n, 4); .json: a scene file;\n- writes a scene file to the standard output");
+}
+
+// `bihive scene save` is one command: see with_plain_words().
+void add_scene_save(CLI::App& app, SceneSaveOptions& options, Request& request) {
+  CLI::App& command =
+      add_command(app, kSceneSave, "Write the request for a picture, with all its options, into a scene file",
+                  "bihive scene save ligand.json data/1hpv.pdb --style illustrative --fit 'resname 478'",
+                  "bihive scene save figure.json figure.png", options, request);
+  command.add_option("SCENE", options.picture.output, "The scene file, *.json; - is the standard output")
+      ->type_name("FILE")
+      ->required();
+  add_input<PictureRequest>(command, options.picture);
+  add_options_by_theme(command, options.picture, /*without=*/{}, /*with_json=*/false);
 }
 
 void add_info(CLI::App& app, InfoOptions& options, Request& request) {
@@ -482,6 +502,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   StatsOptions stats;
   TraceOptions trace;
   SceneOptions scene;
+  SceneSaveOptions scene_save;
   InfoOptions info;
   StylesOptions styles;
   SelectOptions select;
@@ -497,6 +518,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   add_stats(app, stats, request);
   add_trace(app, trace, request);
   add_scene(app, scene, request);
+  add_scene_save(app, scene_save, request);
   add_info(app, info, request);
   add_styles(app, styles, request);
   add_select(app, select, request);
@@ -582,11 +604,14 @@ std::vector<std::string> words_of_film(const std::string& path, int argc, const 
   return words;
 }
 
-// --wrap is a flag, but for "--wrap molecules" and "--wrap=molecules", which are the flag --wrap-molecules.
-std::vector<const char*> with_plain_flags(int argc, const char* const* argv) {
+// --wrap is a flag, but for "--wrap molecules" and "--wrap=molecules", which are the flag --wrap-molecules. The command
+// "scene save" is one word.
+std::vector<const char*> with_plain_words(int argc, const char* const* argv) {
   std::vector<const char*> words;
   bool options = true;
-  for (int i = 0; i < argc; ++i) {
+  const bool saves = argc > 2 && std::string_view(argv[1]) == "scene" && std::string_view(argv[2]) == "save";
+  if (saves) words = {argv[0], kSceneSave};
+  for (int i = saves ? 3 : 0; i < argc; ++i) {
     const std::string_view word = argv[i];
     options = options && word != "--";
     const bool two_words = word == "--wrap" && i + 1 < argc && std::string_view(argv[i + 1]) == "molecules";
@@ -600,7 +625,7 @@ std::vector<const char*> with_plain_flags(int argc, const char* const* argv) {
 }  // namespace
 
 Request parse_command_line(int given_count, const char* const* given, const Describe& describe) {
-  const std::vector<const char*> plain = with_plain_flags(given_count, given);
+  const std::vector<const char*> plain = with_plain_words(given_count, given);
   const auto argc = static_cast<int>(plain.size());
   const char* const* const argv = plain.data();
   Request request = parse_words(argc, argv, /*with_film=*/false, describe);

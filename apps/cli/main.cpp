@@ -41,6 +41,7 @@ struct Run {
   int operator()(const StatsOptions& options) const { return run_stats(options), kSuccess; }
   int operator()(const TraceOptions& options) const { return run_trace(options), kSuccess; }
   int operator()(const SceneOptions& options) const { return run_scene(options), kSuccess; }
+  int operator()(const SceneSaveOptions& options) const { return run_scene_save(options), kSuccess; }
   int operator()(const InfoOptions& options) const { return run_info(options), kSuccess; }
   int operator()(const StylesOptions& options) const { return run_styles(options), kSuccess; }
   int operator()(const SelectOptions& options) const { return run_select(options), kSuccess; }

@@ -6,8 +6,10 @@ import json
 import os
 import shutil
 import struct
+import unittest
 import zlib
 
+from exr_file import ExrFile
 from program import ProgramTest, main, png_chunks, png_numbers, png_text
 
 SMALL = ["--size", "60x40"]
@@ -87,6 +89,12 @@ class Again(AgainTest):
         self.succeed("again", "a.png", "--select", "chain B", "--hide", "-o", "b.png")
         self.draw("demo", *SMALL, "--style", "flat", "--colour-by", "b_factor", "--view-from", "left", "--select", "chain A", "--colour", "red",
                   "--select", "chain B", "--hide", name="c.png")
+        self.assertEqual(self.read("b.png"), self.read("c.png"))
+
+    def test_an_option_and_a_selection_together(self):
+        self.draw("demo", *SMALL, "--style", "flat")
+        self.succeed("again", "a.png", "--size", "30x20", "--select", "chain B", "--hide", "-o", "b.png")
+        self.draw("demo", "--size", "30x20", "--style", "flat", "--select", "chain B", "--hide", name="c.png")
         self.assertEqual(self.read("b.png"), self.read("c.png"))
 
     def test_another_input_is_drawn_alike(self):
@@ -197,6 +205,66 @@ class Verify(AgainTest):
         self.assertEqual(self.run_bihive("verify", "missing.png").returncode, 1)
         os.mkdir(self.path("empty"))
         self.assertIn("no picture", self.fail_input("verify", "empty"))
+
+
+class OtherFiles(AgainTest):
+    """TIFF and OpenEXR carry the same record."""
+
+    def draw_or_skip(self, *options, name):
+        done = self.run_bihive("render", *options, "-o", name)
+        if done.returncode == 3 and "this build of bihive has no" in done.stderr:
+            raise unittest.SkipTest(done.stderr)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_tiff_has_the_record_of_the_png(self):
+        for more in ([], ["--bits", "16", "--background", "none"], ["--crop", "5,5,50,30"]):
+            self.draw_or_skip("demo", *SMALL, *more, name="a.tif")
+            self.draw("demo", *SMALL, *more)
+            self.assertEqual(self.succeed("verify", "a.tif"), "a.tif: the same bits\n")
+            self.assertIn(png_text(self.read("a.png"))["bihive"][:-1].encode(), self.read("a.tif"))
+            self.succeed("again", "a.tif")
+            self.assertEqual(self.read("a.tif"), self.read("a-again.tif"))
+        self.succeed("again", "a.tif", "-o", "b.png")
+        self.assertEqual(self.read("a.png"), self.read("b.png"))
+        self.draw_or_skip("demo", *SMALL, "--no-metadata", name="b.tif")
+        self.assertNotIn(b'"record"', self.read("b.tif"))
+        self.assertIn("does not say how it was drawn", self.verify_json("b.tif", code=1)[0]["error"])
+
+    def test_an_exr_has_layers_in_its_record(self):
+        for layers in (None, "radiance,id,depth", "normal,attribute:b_factor"):
+            more = [] if layers is None else ["--layers", layers]
+            self.draw_or_skip("demo", *SMALL, "--background", "none", "--crop", "5,5,50,38", *more, name="a.exr")
+            self.assertEqual(self.succeed("verify", "a.exr"), "a.exr: the same bits\n")
+            record = json.loads(ExrFile(self.read("a.exr")).attributes["bihive"][1])
+            self.assertEqual(record["layers"], (layers or "radiance").split(","))
+            self.assertEqual(len(record["pixels"]), 64)
+            self.succeed("again", "a.exr")
+            self.assertEqual(self.read("a.exr"), self.read("a-again.exr"))
+        self.assertIn("has layers", self.fail_input("scene", "save", "s.json", "a.exr"))
+        self.draw_or_skip("demo", *SMALL, "--no-metadata", name="b.exr")
+        self.assertNotIn("bihive", ExrFile(self.read("b.exr")).attributes)
+
+    def test_threads_change_no_byte(self):
+        for name in ("a.tif", "a.exr"):
+            self.draw_or_skip("demo", *SMALL, "--threads", "1", name=name)
+            first = self.read(name)
+            self.draw_or_skip("demo", *SMALL, "--threads", "3", "--engine", "reference", name=name)
+            self.assertEqual(first, self.read(name))
+
+    def test_other_numbers_are_told(self):
+        self.write("m.xyz", MOLECULE)
+        for name in ("a.tif", "a.exr"):
+            self.draw_or_skip("m.xyz", *SMALL, name=name)
+            self.write("n.xyz", MOLECULE.replace("1.2", "1.5"))
+            verdict = self.verify_json(name, "n.xyz", code=1)[0]
+            self.assertGreater(verdict["pixels_differ"], 0)
+            self.assertGreater(verdict["largest_difference"], 0)
+            self.assertEqual((verdict["edited"], verdict["changed_files"]), (False, ["input"]))
+        # A bit of the numbers.
+        data = bytearray(self.read("a.exr"))
+        data[-3] ^= 1
+        self.write("b.exr", bytes(data))
+        self.assertEqual(self.verify_json("b.exr", code=1)[0]["verified"], False)
 
 
 main()

@@ -599,7 +599,7 @@ class Encoded(FilmTest):
         # It says that it finds six pictures, when it is asked.
         environment = self.fake_ffmpeg('case "$*" in *-progress*) echo frame=6; exit 0;; esac\n'
                                        'for word in "$@"; do last=${word#file:}; done; cat > "$last"')
-        report = subprocess.run([BIHIVE, "film", "run.xyz", "-o", "run.mp4", *SMALL, "--json"], cwd=self.folder,
+        report = subprocess.run([BIHIVE, "film", "run.xyz", "-o", "run.mp4", *SMALL, "--no-metadata", "--json"], cwd=self.folder,
                                 env=environment, stdout=subprocess.PIPE, check=True, timeout=PATIENCE_S)
         self.assertEqual(json.loads(report.stdout)["drawn"], 6)
         # The program sends rows of pixels, and nothing else.

@@ -19,6 +19,7 @@ OUTPUTS = {
     "view": [("--screenshot", ".png")],
     "trace": [("--t", ".npy"), ("--id", ".npy")],
     "convert": [("--output", ".xyz"), ("--output", ".csv"), ("--output", ".npy"), ("--output", ".ply"), ("--output", ".json")],
+    "scene-save": [("SCENE", ".json")],
     "thesis": [("--out", "report.html"), ("--out", "results.json")],
 }
 NO_OUTPUT = {"stats", "info", "select", "web", "scene", "styles"}
@@ -53,6 +54,8 @@ class RequestFilesTest(ProgramTest):
     def words(self, command, option, named, output, output_option):
         """The command line, and the path of the output that is the input `named`."""
         words = [command]
+        if output_option == "SCENE":
+            words.append(output)
         if option == "FIGURE":
             return words + [named, output_option, output]
         if command == "again":
@@ -73,7 +76,7 @@ class RequestFilesTest(ProgramTest):
             words += ["--picture", "0"]
         if option == "--title-values":
             words += ["--title", "{a}"]
-        return words + [output_option, output]
+        return words if output_option == "SCENE" else words + [output_option, output]
 
     def try_all(self, link):
         tried = set()

@@ -41,7 +41,7 @@ class ManualPages(Words):
         return re.sub(r"\\f[BIR]", "", page).replace("\\-", "-")
 
     def test_every_command_of_help_has_one(self):
-        listed = re.findall(r"^  ([a-z]+) ", self.succeed("--help-all").split("Subcommands:")[1], re.MULTILINE)
+        listed = re.findall(r"^  ([a-z-]+) ", self.succeed("--help-all").split("Subcommands:")[1], re.MULTILINE)
         self.assertEqual(self.commands(), listed)
         page = self.shown()
         for command in listed:

@@ -51,6 +51,26 @@ class Figures(unittest.TestCase):
         self.assertTrue(os.path.exists(self.path("difference.png")))
         self.assertEqual(bh.again(self.path("two.png"), self.path("other.xyz")), bh.render(self.path("other.xyz"), view_from="left", **SMALL))
 
+    def test_other_files_than_png(self):
+        for style in ("default", "glossy"):
+            picture = bh.render("demo", style=style, **SMALL)
+            for ending in ("tif", "exr"):
+                path = self.path("figure." + ending)
+                try:
+                    picture.save(path)
+                except bh.MissingError:
+                    continue
+                self.assertEqual(bh.verify(path).sentence, f"{path}: the same bits")
+                # The program says the same of it.
+                subprocess.run([os.environ["BIHIVE"], "verify", path], check=True, capture_output=True)
+
+    def test_a_saved_request(self):
+        path = self.path("scene.json")
+        subprocess.run([os.environ["BIHIVE"], "scene", "save", path, "demo", "--size", "64x48", "--samples", "1", "--fit", "resname 478"], check=True,
+                       capture_output=True)
+        self.assertEqual(bh.render(path), bh.render("demo", fit="resname 478", **SMALL))
+        self.assertEqual(bh.render(path, size=(32, 24)).size, (32, 24))
+
     def test_what_cannot_be_drawn(self):
         os.remove(self.path("two.xyz"))
         verdict = bh.verify(self.path("two.png"))

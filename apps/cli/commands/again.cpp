@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "bihive/base/version.h"
-#include "bihive/image/png.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/figure.h"
 #include "bihive/job/messages.h"
@@ -19,6 +19,8 @@
 #include "commands/draw_picture.h"
 #include "commands/picture_file.h"
 #include "commands/render_steps.h"
+#include "film/film_record.h"
+#include "film/verify_film.h"
 #include "support/interrupt.h"
 #include "support/outputs.h"
 
@@ -28,8 +30,13 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-bool is_png(const std::string& path) {
-  return fs::path(path).extension() == ".png";
+// Those of a record, which is data from a file.
+std::vector<Layer> layers_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  const Result<std::vector<Layer>> layers = layers_from_text(text);
+  if (!layers) fail({"its record names layers that there are not", "", 0, 0, ""});
+  return *layers;
 }
 
 // --- bihive verify ------------------------------------------------------------------------------------------------
@@ -61,10 +68,48 @@ class RowsInMemory : public PictureFile {
   const PreparedPicture& prepared_;
 };
 
-PngPixels drawn_again(const PictureRequest& request) {
+// The rows of channels.
+class ChannelsInMemory : public PictureFile {
+ public:
+  ChannelsInMemory(const PreparedPicture& prepared, const Tracer& tracer) : prepared_(prepared), tracer_(tracer) {
+    all.width_px = prepared.settings.width_px;
+    all.height_px = prepared.settings.height_px;
+    all.pixels = drawn_pixels(prepared.settings);
+    all.channels = channels_of(prepared.layers, prepared.settings.transparent);
+  }
+
+  Status add(const Film& film, const Tile& pixels) override {
+    RenderSettings settings = prepared_.settings;
+    settings.crop = pixels;
+    const std::vector<Channel> rows =
+        draw_layers(prepared_.input.scene, tracer_, settings, prepared_.layers, film, &CancellableSection::token());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      Channel& channel = all.channels[i];
+      channel.numbers.insert(channel.numbers.end(), rows[i].numbers.begin(), rows[i].numbers.end());
+      channel.ids.insert(channel.ids.end(), rows[i].ids.begin(), rows[i].ids.end());
+    }
+    return Done{};
+  }
+  Status finish() override {
+    std::sort(all.channels.begin(), all.channels.end(),
+              [](const Channel& a, const Channel& b) { return a.name < b.name; });
+    return Done{};
+  }
+  double bytes_of_pixel() const override { return 2 * 4 * static_cast<double>(all.channels.size()); }
+
+  ExrForm all;
+
+ private:
+  const PreparedPicture& prepared_;
+  const Tracer& tracer_;
+};
+
+FigurePixels drawn_again(const PictureRequest& request, const std::vector<std::string>& layers) {
   RenderOptions options;
   static_cast<PictureRequest&>(options) = request;
   options.output = "/dev/null";
+  options.as_exr = !layers.empty();
+  if (options.as_exr) options.layers = layers_of(layers);
   const PreparedPicture prepared = prepare_render(options);
   check_memory_of(prepared.engine, prepared.input, options, prepared.settings);
   const Tile drawn = drawn_pixels(prepared.settings);
@@ -73,19 +118,41 @@ PngPixels drawn_again(const PictureRequest& request) {
   const Tracer tracer =
       value_or_fail(Tracer::build(scene, structure_of(prepared.engine), options.tree, prepared.settings.threads));
   RowsInMemory rows(options, prepared);
+  std::optional<ChannelsInMemory> channels;
+  if (options.as_exr) channels.emplace(prepared, tracer);
+  PictureFile& file = channels ? static_cast<PictureFile&>(*channels) : rows;
   const CancellableSection section;
   Progress progress("verifying");
   try {
-    draw_picture(scene, tracer, prepared.engine, prepared.settings, prepared.layers, rows,
+    draw_picture(scene, tracer, prepared.engine, prepared.settings, prepared.layers, file,
                  [&](double done) { progress.update(done); });
   } catch (const Interrupted&) {
     CancellableSection::leave_if_cancelled();
     throw;
   }
-  return std::move(rows.all);
+  value_or_fail(file.finish());
+  FigurePixels pixels{std::move(rows.all)};
+  if (channels) pixels.exr = std::move(channels->all);
+  return pixels;
 }
 
-// Folders stand for the PNG files in them that say how they were drawn, or cannot be read.
+std::string name_of_new(const std::string& figure) {
+  const fs::path path(figure);
+  return fs::path(path).replace_extension("").string() + "-again" + path.extension().string();
+}
+
+// Whether it says how it was drawn, or cannot be read.
+bool is_figure(const std::string& path) {
+  try {
+    if (has_name_of_film(path)) return !read_film_record(path).empty();
+    read_figure(path);
+    return true;
+  } catch (const Failure& failure) {
+    return failure.error.message != kSaysNothing;
+  }
+}
+
+// Folders stand for the files in them that say how they were drawn, or cannot be read.
 std::vector<std::string> figures_of(const std::vector<std::string>& paths) {
   std::vector<std::string> figures;
   for (const std::string& path : paths) {
@@ -96,11 +163,8 @@ std::vector<std::string> figures_of(const std::vector<std::string>& paths) {
     }
     std::vector<std::string> inside;
     for (const fs::directory_entry& entry : fs::directory_iterator(path, none)) {
-      if (!is_png(entry.path().string())) continue;
-      const Result<PngFile> file = read_png(entry.path().string());
-      if (!file || std::any_of(file->text.begin(), file->text.end(),
-                               [](const auto& chunk) { return chunk.first == kLateKeyword; }))
-        inside.push_back(entry.path().string());
+      const std::string file = entry.path().string();
+      if ((has_name_of_figure(file) || has_name_of_film(file)) && is_figure(file)) inside.push_back(file);
     }
     if (inside.empty()) fail({"there is no picture in it that says how it was drawn", path, 0, 0, ""});
     std::sort(inside.begin(), inside.end());
@@ -112,11 +176,20 @@ std::vector<std::string> figures_of(const std::vector<std::string>& paths) {
 }  // namespace
 
 void run_again(const AgainOptions& options) {
+  if (has_name_of_film(options.figure)) {
+    FilmOptions film = film_again(options.figure, options.changes);
+    if (film.picture.output.empty()) film.picture.output = name_of_new(options.figure);
+    check_outputs({film.picture.output}, {options.figure});
+    run_film(film);
+    return;
+  }
   const Figure figure = read_figure(options.figure);
   RenderOptions again = options.changes;
   static_cast<PictureRequest&>(again) =
       request_again(figure, options.figure, options.changes.input.input, options.changes.given);
-  if (again.output.empty()) again.output = fs::path(options.figure).replace_extension("").string() + "-again.png";
+  if (again.output.empty()) again.output = name_of_new(options.figure);
+  const std::vector<std::string>& layers = figure.record.layers;
+  if (!layers.empty() && is_exr(again.output)) again.layers = layers_of(layers);
   check_outputs({again.output}, {options.figure});
   run_render(again);
 }
@@ -125,8 +198,8 @@ bool run_verify(const VerifyOptions& asked) {
   // An input may come last.
   VerifyOptions options = asked;
   std::error_code none;
-  if (const std::string& last = asked.figures.back();
-      asked.figures.size() > 1 && !is_png(last) && !fs::is_directory(last, none)) {
+  if (const std::string& last = asked.figures.back(); asked.figures.size() > 1 && !has_name_of_figure(last) &&
+                                                      !has_name_of_film(last) && !fs::is_directory(last, none)) {
     options.input = last;
     options.figures.pop_back();
   }
@@ -136,6 +209,10 @@ bool run_verify(const VerifyOptions& asked) {
     check_outputs({options.difference}, {figures.front(), options.input});
   }
 
+  const auto film = std::find_if(figures.begin(), figures.end(), has_name_of_film);
+  if (film != figures.end() && (options.methods || !options.difference.empty()))
+    fail({options.methods ? "is a film, and --methods is of pictures" : "is a film, and --difference is of pictures",
+          *film, 0, 0, ""});
   if (options.methods) {
     for (const std::string& path : figures) {
       const Figure figure = read_figure(path);
@@ -154,7 +231,9 @@ bool run_verify(const VerifyOptions& asked) {
   ordered_json verdicts = ordered_json::array();
   std::int64_t good = 0;
   for (const std::string& figure : figures) {
-    const Verdict verdict = verify_figure(figure, options.input, options.difference, drawn_again);
+    const Verdict verdict = has_name_of_film(figure)
+                                ? verify_film(figure, options.input, drawn_again)
+                                : verify_figure(figure, options.input, options.difference, drawn_again);
     good += verdict.holds() ? 1 : 0;
     if (options.json)
       verdicts.push_back(json_of(verdict));

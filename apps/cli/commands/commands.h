@@ -8,6 +8,7 @@
 
 #include "bihive/job/picture_request.h"
 #include "bihive/render/layers.h"
+#include "bihive/scene/camera_path.h"
 #include "bihive/scene/frame_range.h"
 #include "bihive/thesis/experiments.h"
 #include "bihive/viewer/viewer_settings.h"
@@ -19,6 +20,7 @@ namespace bihive::cli {
 struct RenderOptions : PictureRequest {
   std::string output;  ///< a path, or "-": the standard output
   std::optional<std::vector<Layer>> layers;
+  bool as_exr = false;  ///< OpenEXR, whatever the output's name
   bool json = false;
   bool metadata = true;  ///< the file says how it was made
   bool methods = false;  ///< print methods_text() too
@@ -94,7 +96,8 @@ struct FilmOptions {
   std::string turn_axis;      ///< "x", "y", "z" or "picture"; empty: the world's up
   std::string follow, align;  ///< selections; empty: none
   FittedFrames fit_frames = FittedFrames::first;
-  std::string camera_keys;  ///< a file; empty: none
+  std::string camera_keys;      ///< a file; empty: none
+  std::vector<CameraKey> keys;  ///< without a file
   RangeOfColours range_of_colours = RangeOfColours::first;
   std::string codec;  ///< ffmpeg's options for the film's codec, separated by single spaces; empty: by the output's
                       ///< ending
@@ -144,6 +147,12 @@ struct SceneOptions {
   std::string output;
 };
 void run_scene(const SceneOptions& options);
+
+/// Writes the request for a picture into a scene file.
+struct SceneSaveOptions {
+  RenderOptions picture;  ///< its output is the scene file; its input may be a figure
+};
+void run_scene_save(const SceneSaveOptions& options);
 
 struct InfoOptions {
   InputOptions input;

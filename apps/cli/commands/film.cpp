@@ -275,7 +275,10 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
                         const FrameSource& source, FilmPlan plan, FilmFolder& folder, PictureCommunicator* ranks,
                         const Timer& timer) {
   const CancellableSection section;
-  if (!folder.kept()) plan.fixed = fixed_by_film(source, plan, options, style);
+  if (!folder.kept()) {
+    plan.fixed = fixed_by_film(source, plan, options, style);
+    if (plan.asked.metadata) plan.record = record_of(options.picture, "");
+  }
   CancellableSection::leave_if_cancelled();
   value_or_fail(check_picture_memory(plan.fixed.width_px, plan.fixed.height_px));
   const bool writes = ranks == nullptr || ranks->rank() == 0;

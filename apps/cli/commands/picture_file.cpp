@@ -37,6 +37,26 @@ std::string ending_of(const std::string& output) {
   return ending;
 }
 
+// The record of a picture whose pixels come by rows.
+class RecordOfRows {
+ public:
+  explicit RecordOfRows(const RenderOptions& options) {
+    if (options.metadata) record_ = record_of(options, "");
+  }
+  void add(const PngPixels& rows) {
+    if (record_) sha_.add({reinterpret_cast<const char*>(rows.bytes.data()), rows.bytes.size()});
+  }
+  /// After the last row; unset: the file has none.
+  std::optional<PictureRecord> finish() {
+    if (record_) record_->pixels_sha256 = sha_.digits();
+    return std::move(record_);
+  }
+
+ private:
+  std::optional<PictureRecord> record_;
+  Sha256 sha_;
+};
+
 class PngFileOfRows : public PictureFile {
  public:
   PngFileOfRows(PictureToWrite picture, PngEncoder encoder)
@@ -44,25 +64,20 @@ class PngFileOfRows : public PictureFile {
         encoder_(std::move(encoder)),
         output_(output_path(picture_.options.output)),
         stream_(is_stream(output_)),
-        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()) {
-    // A picture of a film has its film's description instead.
-    if (picture_.options.metadata && !picture_.options.fixed) record_ = record_of(picture_.options, "");
-  }
+        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()),
+        record_(picture_.options) {}
 
   Status add(const Film& film, const Tile& pixels) override {
     const PngPixels rows = png_rows(picture_.options, picture_.scene, picture_.settings, film, pixels);
     hash_.add(rows.bytes);
-    if (record_) sha_.add({reinterpret_cast<const char*>(rows.bytes.data()), rows.bytes.size()});
+    record_.add(rows);
     if (Status status = encoder_.add(rows); !status) return status;
     return write();
   }
 
   Status finish() override {
     PngText late;
-    if (record_) {
-      record_->pixels_sha256 = sha_.digits();
-      late.emplace_back(kLateKeyword, to_text(*record_));
-    }
+    if (const std::optional<PictureRecord> record = record_.finish()) late.emplace_back(kLateKeyword, to_text(*record));
     if (Status status = encoder_.finish(late); !status) return status;
     if (Status status = write(); !status) return status;
     if (stream_) return file_->finish();
@@ -97,26 +112,28 @@ class PngFileOfRows : public PictureFile {
   std::optional<GrowingFile> file_;
   std::optional<RemovedWhenEnded> removed_;
   PictureHash hash_;
-  std::optional<PictureRecord> record_;
-  Sha256 sha_;  // of all rows
+  RecordOfRows record_;
 };
 
 class TiffFileOfRows : public PictureFile {
  public:
   explicit TiffFileOfRows(PictureToWrite picture)
       : picture_(std::move(picture)),
-        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()) {}
+        hash_(drawn_pixels(picture_.settings).width(), drawn_pixels(picture_.settings).height()),
+        record_(picture_.options) {}
 
   Status add(const Film& film, const Tile& pixels) override {
     const PngPixels rows = png_rows(picture_.options, picture_.scene, picture_.settings, film, pixels);
     hash_.add(rows.bytes);
+    record_.add(rows);
     if (!writer_)
       if (Status status = begin(rows); !status) return status;
     return writer_->add(rows);
   }
   Status finish() override {
+    const std::optional<PictureRecord> record = record_.finish();
     const WritingSection section;
-    return writer_->finish();
+    return writer_->finish(record ? to_text_with_settings(*record, text_named("Settings")) : std::string());
   }
   std::optional<std::uint64_t> hash() const override { return hash_.value(); }
   double bytes_of_pixel() const override {
@@ -127,11 +144,7 @@ class TiffFileOfRows : public PictureFile {
   Status begin(const PngPixels& rows) {
     const Tile drawn = drawn_pixels(picture_.settings);
     TiffForm form{drawn.width(), drawn.height(), rows.channels, rows.bits, picture_.options.dots_per_inch, "", ""};
-    if (picture_.options.metadata)
-      for (const auto& [name, value] : picture_.text) {
-        if (name == "Software") form.software = value;
-        if (name == "Settings") form.description = value;
-      }
+    if (picture_.options.metadata) form.software = text_named("Software");
     Result<TiffWriter> writer = TiffWriter::begin(picture_.options.output, form);
     if (!writer) return writer.error();
     writer_.emplace(std::move(*writer));
@@ -139,8 +152,15 @@ class TiffFileOfRows : public PictureFile {
     return Done{};
   }
 
+  std::string text_named(const std::string& wanted) const {
+    for (const auto& [name, value] : picture_.text)
+      if (name == wanted) return value;
+    return "";
+  }
+
   PictureToWrite picture_;
   PictureHash hash_;
+  RecordOfRows record_;
   std::optional<TiffWriter> writer_;
   std::optional<RemovedWhenEnded> removed_;
 };
@@ -152,10 +172,15 @@ class ExrFileOfRows : public PictureFile {
   Status add(const Film& film, const Tile& pixels) override {
     if (!writer_)
       if (Status status = begin(); !status) return status;
-    return writer_->add(draw_layers(picture_.scene, picture_.tracer, settings_of(picture_.settings, pixels),
-                                    picture_.layers, film, &CancellableSection::token()));
+    const std::vector<Channel> rows =
+        draw_layers(picture_.scene, picture_.tracer, settings_of(picture_.settings, pixels), picture_.layers, film,
+                    &CancellableSection::token());
+    if (picture_.options.metadata) hash_.add(rows, pixels.width());
+    return writer_->add(rows);
   }
   Status finish() override {
+    if (picture_.options.metadata)
+      if (Status status = writer_->replace_text(kUnknownSha256, hash_.digits()); !status) return status;
     const WritingSection section;
     return writer_->finish();
   }
@@ -167,7 +192,13 @@ class ExrFileOfRows : public PictureFile {
  private:
   Status begin() {
     const RenderSettings& settings = picture_.settings;
-    if (!picture_.options.metadata) picture_.text.clear();
+    if (picture_.options.metadata) {
+      PictureRecord record = record_of(picture_.options, kUnknownSha256);
+      for (const Layer& layer : picture_.layers) record.layers.push_back(name_of_layer(layer));
+      picture_.text.emplace_back(kLateKeyword, to_text(record));
+    } else {
+      picture_.text.clear();
+    }
     const ExrForm form{settings.width_px,      settings.height_px,
                        drawn_pixels(settings), channels_of(picture_.layers, settings.transparent),
                        picture_.text,          picture_.options.dots_per_inch};
@@ -178,7 +209,11 @@ class ExrFileOfRows : public PictureFile {
     return Done{};
   }
 
+  // The header comes before the pixels.
+  inline static const std::string kUnknownSha256 = std::string(64, '?');
+
   PictureToWrite picture_;
+  ChannelsHash hash_;
   std::optional<ExrWriter> writer_;
   std::optional<RemovedWhenEnded> removed_;
 };
@@ -219,7 +254,7 @@ std::vector<Layer> choose_layers(const RenderOptions& options, const Scene& scen
   if (is_tiff(options.output) && !can_write_tiff())
     fail_environment({"this build of bihive has no TIFF", options.output, 0, 0,
                       "install libtiff-dev (scripts/setup demo) and build again, or write a PNG"});
-  if (!is_exr(options.output)) {
+  if (!options.as_exr && !is_exr(options.output)) {
     if (options.layers) fail_setting("layers", " need a file that holds them", "let the output end in .exr");
     return {};
   }

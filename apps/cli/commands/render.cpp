@@ -41,9 +41,9 @@ void run_render(const RenderOptions& asked) {
       value_or_fail(Tracer::build(scene, structure_of(prepared.engine), options.tree, settings.threads));
   if (communicator() == nullptr) renew_group_limit_for_threads(settings.threads);
   const Timer drawing;
-  const std::unique_ptr<PictureFile> file =
-      leads() ? open_picture({options, scene, tracer, settings, prepared.layers, text_of(scene, prepared.described)})
-              : nullptr;
+  const std::unique_ptr<PictureFile> file = leads() ? open_picture({options, scene, tracer, settings, prepared.layers,
+                                                                    text_of(options, scene, prepared.described)})
+                                                    : nullptr;
   // Nothing may fail between this and the drawing, because the other ranks wait for rank 0 there.
   if (communicator() != nullptr) communicator()->barrier();
   const Drawn drawn = [&] {

@@ -89,7 +89,8 @@ void run_render_spread(const RenderOptions& options) {
   if (!in_chunks) share_picture(prepared, /*with_spheres=*/false, ranks);
 
   // Each rank builds a tree of its spheres.
-  const std::vector<std::pair<std::string, std::string>> text = text_of(prepared.input.scene, prepared.described);
+  const std::vector<std::pair<std::string, std::string>> text =
+      text_of(options, prepared.input.scene, prepared.described);
   const std::shared_ptr<const SpreadScene> spread =
       value_or_fail(SpreadScene::make(std::move(prepared.input.scene), prepared.settings, options.tree, ranks));
   const Timer drawing;

@@ -11,6 +11,7 @@
 #include "bihive/job/methods_text.h"
 #include "bihive/job/picture_record.h"
 #include "bihive/job/prepare_picture.h"
+#include "bihive/job/scene_request.h"
 #include "bihive/simd/target.h"
 #include "commands/names.h"
 #include "film/film_plan.h"
@@ -57,7 +58,10 @@ std::string methods_of(const RenderOptions& options, const PreparedPicture& prep
 
 RenderOptions with_film(const RenderOptions& asked) {
   RenderOptions options = asked;
-  if (!asked.film.empty()) take_film(options, read_film_plan(asked.film));
+  if (asked.film.empty())
+    take_saved_request(options);
+  else
+    take_film(options, read_film_plan(asked.film));
   return options;
 }
 

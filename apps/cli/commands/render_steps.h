@@ -36,7 +36,7 @@ using LoadPicture = std::function<LoadedPicture(Style& style)>;
 
 /// The options of the film are applied already. Fails like the steps that it calls. `load`: replaces load_input().
 PreparedPicture prepare_render(const RenderOptions& options, const LoadPicture& load = {});
-/// Merges the film's options into a picture's.
+/// Merges the film's options, or those of an input that is a saved request, into a picture's.
 RenderOptions with_film(const RenderOptions& asked);
 
 /// A drawn picture, for the report.

@@ -1,4 +1,4 @@
-// bihive scene: writes a scene of the thesis to a file.
+// bihive scene: writes a scene of the thesis to a file. bihive scene save: writes the request for a picture.
 
 #include "bihive/scene/scene.h"
 
@@ -6,7 +6,9 @@
 
 #include "bihive/io/npy.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/figure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/scene_request.h"
 #include "bihive/scene/scene_file.h"
 #include "commands/commands.h"
 #include "support/outputs.h"
@@ -49,6 +51,32 @@ void run_scene(const SceneOptions& options) {
   print_report(
       fmt::format("{}: {}, {} spheres{}\n", escaped(options.output), scene->name, grouped(scene->spheres.size()), seed),
       {options.output});
+}
+
+void run_scene_save(const SceneSaveOptions& options) {
+  const RenderOptions& asked = options.picture;
+  const std::string& output = asked.output;
+  if (!ends_with(output, ".json") && output != kStandardStream)
+    fail_usage("the name of a scene file must end in .json", "- writes it to the standard output");
+  // The request of a figure, or what is asked for.
+  PictureRequest request = asked;
+  const std::string& input = asked.input.input;
+  if (!is_built_in_scene(input) && input != kStandardStream && looks_like_figure(input)) {
+    const Figure figure = read_figure(input);
+    const std::vector<std::string>& layers = figure.record.layers;
+    if (!layers.empty() && layers != std::vector<std::string>{"radiance"})
+      fail({"has layers, which a scene file does not hold", input, 0, 0, "draw it from the input by bihive render"});
+    if (figure.record.fixed)
+      fail({"is a picture of a film, whose camera a scene file does not hold", input, 0, 0,
+            "save the request for its input"});
+    request = request_again(figure, input, "", asked.given);
+  } else {
+    take_saved_request(request);
+  }
+  check_outputs(outputs_of(options), inputs_of(options));
+  write_together({{output_path(output), scene_of_request(request, output)}});
+  print_report(fmt::format("{}: {}, {} options\n", escaped(output), escaped(request.input.input), request.given.size()),
+               {output});
 }
 
 }  // namespace bihive::cli

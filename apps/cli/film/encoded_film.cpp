@@ -21,6 +21,7 @@
 #include "film/codec_words.h"
 #include "film/ffmpeg.h"
 #include "film/film_folder.h"
+#include "film/film_record.h"
 #include "film/film_sink.h"
 
 namespace bihive::cli {
@@ -33,6 +34,7 @@ constexpr double kSegmentMs = 15e3;
 constexpr const char* kUnfinished = "unfinished-";
 constexpr const char* kJoined = "film.joined-";
 constexpr const char* kList = "segments.txt";
+constexpr const char* kMetadata = "film.metadata";
 constexpr mode_t kForOwner = 0600;
 
 struct Segment {
@@ -57,6 +59,7 @@ class EncodedFilm final : public FilmSink {
         animation_(is_animation(output) ? ending_of_film(output) : ""),
         ending_(animation_.empty() ? ending_of_film(output) : kLosslessEnding),
         ffmpeg_(std::move(ffmpeg)),
+        record_(plan.record),
         pictures_(plan.positions()),
         shortest_((plan.asked.rate.pictures + plan.asked.rate.seconds - 1) / plan.asked.rate.seconds) {
     if (is_gif() && plan.asked.rate.pictures > kMostGifRate * plan.asked.rate.seconds)
@@ -72,6 +75,7 @@ class EncodedFilm final : public FilmSink {
     else
       codec_ = plan.asked.codec.empty() ? default_codec(ending_, plan.fixed.width_px, plan.fixed.height_px)
                                         : codec_words(plan.asked.codec);
+    if (record_) record_->film = film_of_record(plan);
     if (film_.existing() != nullptr) find_segments(*film_.existing());
   }
 
@@ -87,6 +91,7 @@ class EncodedFilm final : public FilmSink {
       throw;
     }
     in_segment_ += picture.times;
+    if (record_) sha256_.insert(sha256_.end(), static_cast<std::size_t>(picture.times), sha256_of(picture.pixels));
     if (in_segment_ >= shortest_ && age_.elapsed_ms() >= kSegmentMs) end_segment();
   }
 
@@ -98,13 +103,29 @@ class EncodedFilm final : public FilmSink {
     if (run_) end_segment();
     if (segments_.empty() || segments_.back().end != pictures_)
       fail({"the film lacks pictures", film_.folder().path(), 0, 0, "run the same again"});
+    if (record_)
+      for (const Segment& segment : segments_)
+        for (std::string& digits : kept_sha256(film_.folder(), segment))
+          record_->pictures_sha256.push_back(std::move(digits));
     if (!animation_.empty()) return film_.finish(animated());
-    film_.finish(segments_.size() > 1 ? joined() : segment_name(segments_.front()));
+    film_.finish(segments_.size() > 1 || record_ ? joined() : segment_name(segments_.front()));
   }
 
  private:
   std::string segment_name(const Segment& segment) const {
     return fmt::format("segment-{:08}-{:08}{}", segment.begin, segment.end, ending_);
+  }
+
+  // The SHA-256 of its pictures, in a file beside it.
+  std::string sha256_name(const Segment& segment) const {
+    return fmt::format("film.sha256-{:08}-{:08}", segment.begin, segment.end);
+  }
+  std::vector<std::string> kept_sha256(const OwnFolder& folder, const Segment& segment) const {
+    constexpr std::size_t kDigits = 64;
+    const std::string text = folder.read(sha256_name(segment)).value_or("");
+    std::vector<std::string> all;
+    for (std::size_t at = 0; at + kDigits < text.size(); at += kDigits + 1) all.push_back(text.substr(at, kDigits));
+    return all;
   }
 
   // Keeps the consecutive segments from picture 0 on that have their pictures. Removes others, and what killed runs
@@ -132,8 +153,10 @@ class EncodedFilm final : public FilmSink {
 
   bool is_whole(const OwnFolder& folder, const Segment& segment) const {
     if (!folder.open_file(segment_name(segment), O_RDONLY)) return false;
+    const std::int64_t pictures = segment.end - segment.begin;
+    if (record_ && static_cast<std::int64_t>(kept_sha256(folder, segment).size()) != pictures) return false;
     try {
-      check_pictures(ffmpeg_, folder, segment_name(segment), segment.end - segment.begin);
+      check_pictures(ffmpeg_, folder, segment_name(segment), pictures);
       return true;
     } catch (const Failure&) {
       return false;
@@ -160,6 +183,14 @@ class EncodedFilm final : public FilmSink {
     const std::int64_t begin = segments_.empty() ? 0 : segments_.back().end;
     const Segment whole{begin, begin + in_segment_};
     check_and_flush(folder, unfinished_, in_segment_);
+    if (record_) {
+      std::string lines;
+      for (const std::string& digits : sha256_) lines += digits + "\n";
+      sha256_.clear();
+      film_.note_file(sha256_name(whole));
+      folder.remove(sha256_name(whole));
+      folder.write_new(sha256_name(whole), lines, kForOwner);
+    }
     folder.rename(unfinished_, segment_name(whole));
     segments_.push_back(whole);
     film_.keep();
@@ -210,6 +241,7 @@ class EncodedFilm final : public FilmSink {
     } else {
       run({"-c:v", "apng", "-pix_fmt", "rgb24", "-plays", "0", "-f", "apng"}, whole);
     }
+    if (record_) add_record_to_animation(folder, whole, is_gif(), to_text(*record_));
     check_and_flush(folder, whole, pictures_);
     return whole;
   }
@@ -218,11 +250,18 @@ class EncodedFilm final : public FilmSink {
     const OwnFolder& folder = film_.folder();
     write_list();
     std::string whole = kJoined + random_digits() + ending_;
-    FfmpegRun(ffmpeg_,
-              {"-f", "concat", "-safe", "0", "-i", FfmpegRun::url(folder, kList), "-c", "copy",
-               FfmpegRun::url(folder, whole)},
-              folder, FfmpegRun::Input::none)
-        .finish();
+    std::vector<std::string> words{"-f", "concat", "-safe", "0", "-i", FfmpegRun::url(folder, kList)};
+    if (record_) {
+      folder.remove(kMetadata);
+      folder.write_new(kMetadata, ffmpeg_metadata(to_text(*record_)), kForOwner);
+      for (const std::string& word :
+           {std::string("-f"), std::string("ffmetadata"), std::string("-i"), FfmpegRun::url(folder, kMetadata),
+            std::string("-map"), std::string("0"), std::string("-map_metadata"), std::string("1")})
+        words.push_back(word);
+    }
+    words.insert(words.end(), {"-c", "copy", FfmpegRun::url(folder, whole)});
+    FfmpegRun(ffmpeg_, words, folder, FfmpegRun::Input::none).finish();
+    if (record_) folder.remove(kMetadata);
     check_and_flush(folder, whole, pictures_);
     return whole;
   }
@@ -230,6 +269,8 @@ class EncodedFilm final : public FilmSink {
   FilmFolder& film_;
   std::string animation_;  // ".gif" or ".apng"; empty: another film
   std::string ending_, ffmpeg_, rate_;
+  std::optional<PictureRecord> record_;
+  std::vector<std::string> sha256_;  // of the pictures of this segment
   std::int64_t pictures_, shortest_;
   std::vector<std::string> input_, codec_;
   std::vector<Segment> segments_;

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <limits>
 #include <utility>
 
 #include "bihive/base/setting_name.h"
@@ -72,10 +73,10 @@ Descriptor open_scratch(const OwnFolder& folder) {
   return std::move(*file);
 }
 
-std::string end_of_file(int file) {
+std::string end_of_file(int file, off_t most) {
   struct stat info {};
   if (fstat(file, &info) != 0) return "";
-  std::string text(static_cast<std::size_t>(std::min(info.st_size, kMostPrinted)), '\0');
+  std::string text(static_cast<std::size_t>(std::min(info.st_size, most)), '\0');
   const ssize_t got = pread(file, text.data(), text.size(), info.st_size - static_cast<off_t>(text.size()));
   text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
   return text;
@@ -244,11 +245,15 @@ void FfmpegRun::finish() {
 }
 
 std::string FfmpegRun::output() const {
-  return end_of_file(output_.get());
+  return end_of_file(output_.get(), kMostPrinted);
+}
+
+std::string FfmpegRun::whole_output() const {
+  return end_of_file(output_.get(), std::numeric_limits<off_t>::max());
 }
 
 void FfmpegRun::fail_with_log(const std::string& what) {
-  const std::string said = last_line(end_of_file(log_.get()));
+  const std::string said = last_line(end_of_file(log_.get(), kMostPrinted));
   fail_environment({"ffmpeg " + what + (said.empty() ? "" : ", and said: " + said), "", 0, 0,
                     "what is encoded already is kept: run the same again when ffmpeg works, or give another " +
                         setting_name("codec")});

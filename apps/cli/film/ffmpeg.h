@@ -40,6 +40,7 @@ class FfmpegRun {
   void finish();
   /// The end of its output, at most 4 kB.
   std::string output() const;
+  std::string whole_output() const;
 
  private:
   [[noreturn]] void fail_with_log(const std::string& what);

@@ -10,6 +10,7 @@
 #include "bihive/base/json_text.h"
 #include "bihive/base/write_file.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/film/fixed_json.h"
 #include "bihive/job/report_text.h"
 #include "bihive/scene/names.h"
 #include "commands/names.h"
@@ -27,14 +28,6 @@ constexpr std::int64_t kLargestSide = 65535;
 constexpr double kMostTurntableDeg = 1e6;
 constexpr std::int64_t kLastFrame = std::numeric_limits<std::int64_t>::max();
 
-ordered_json vector_json(Vec3d v) {
-  return {v.x, v.y, v.z};
-}
-
-Vec3d vector_of(const ordered_json& value) {
-  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
-}
-
 // Fractions and numbers that are too large are refused.
 std::int64_t whole_of(const ordered_json& value, std::int64_t least, std::int64_t most) {
   const bool fits = value.is_number_integer() &&
@@ -42,43 +35,6 @@ std::int64_t whole_of(const ordered_json& value, std::int64_t least, std::int64_
   if (!fits || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
     throw std::out_of_range("whole number");
   return value.get<std::int64_t>();
-}
-
-ordered_json range_json(const ColourRange& range) {
-  return range ? ordered_json{range->first, range->second} : ordered_json();
-}
-
-ColourRange range_of(const ordered_json& value) {
-  if (value.is_null()) return std::nullopt;
-  const std::pair range{value.at(0).get<double>(), value.at(1).get<double>()};
-  if (range.first > range.second) throw std::out_of_range("range");
-  return range;
-}
-
-ordered_json camera_json(const Camera& camera) {
-  return {{"eye", vector_json(camera.eye)},
-          {"look_at", vector_json(camera.look_at)},
-          {"up", vector_json(camera.up)},
-          {"fov_deg", camera.fov_deg},
-          {"projection", name_of(kProjections, camera.projection)},
-          {"shorter_side", camera.shorter_side},
-          {"aperture", camera.aperture},
-          {"focus", camera.focus}};
-}
-
-Camera camera_of(const ordered_json& value) {
-  Camera camera;
-  camera.eye = vector_of(value.at("eye"));
-  camera.look_at = vector_of(value.at("look_at"));
-  camera.up = vector_of(value.at("up"));
-  camera.fov_deg = value.at("fov_deg").get<double>();
-  const auto projection = value_named(kProjections, value.at("projection").get<std::string>());
-  if (!projection) throw std::out_of_range("projection");
-  camera.projection = *projection;
-  camera.shorter_side = value.at("shorter_side").get<double>();
-  camera.aperture = value.at("aperture").get<double>();
-  camera.focus = value.at("focus").get<double>();
-  return camera;
 }
 
 ordered_json asked_json(const FilmPlan::Asked& asked) {
@@ -102,6 +58,7 @@ ordered_json asked_json(const FilmPlan::Asked& asked) {
   object["fit_frames"] = asked.fit_frames;
   object["colour_range"] = asked.range_of_colours;
   object["codec"] = asked.codec;
+  object["metadata"] = asked.metadata;
   return object;
 }
 
@@ -138,6 +95,7 @@ FilmPlan::Asked asked_of(const ordered_json& value, const std::string& path) {
   if (!value_named(kFittedFrames, asked.fit_frames)) throw std::out_of_range("fit_frames");
   asked.range_of_colours = value.at("colour_range").get<std::string>();
   asked.codec = value.at("codec").get<std::string>();
+  asked.metadata = value.value("metadata", true);
   if (asked.frames.count > 1 && asked.frames.count != asked.pictures) throw std::out_of_range("pictures");
   if (asked.frames.count - 1 > (kLastFrame - asked.frames.first) / asked.frames.step) throw std::out_of_range("frames");
   if (!(std::abs(asked.path.turntable_deg) <= kMostTurntableDeg)) throw std::out_of_range("turntable_deg");
@@ -150,7 +108,6 @@ FilmPlan::Fixed fixed_of(const ordered_json& value) {
   fixed.width_px = static_cast<int>(whole_of(value.at("size_px").at(0), 1, kLargestSide));
   fixed.height_px = static_cast<int>(whole_of(value.at("size_px").at(1), 1, kLargestSide));
   fixed.camera = camera_of(value.at("camera"));
-  if (!check_camera(fixed.camera)) throw std::out_of_range("camera");
   fixed.range_of_style = range_of(value.at("range_of_style"));
   fixed.ranges_of_looks.reserve(value.at("ranges_of_looks").size());
   for (const ordered_json& range : value.at("ranges_of_looks")) fixed.ranges_of_looks.push_back(range_of(range));
@@ -160,27 +117,6 @@ FilmPlan::Fixed fixed_of(const ordered_json& value) {
 // One for each frame of the film, or none.
 void check_count(std::size_t count, const FilmPlan::Asked& asked) {
   if (count != 0 && count != static_cast<std::size_t>(asked.frames.count)) throw std::out_of_range("frames");
-}
-
-ordered_json motion_json(const RigidMotion& motion) {
-  return {vector_json(motion.rows[0]), vector_json(motion.rows[1]), vector_json(motion.rows[2]),
-          vector_json(motion.shift)};
-}
-
-// Of numbers that a sphere's centre may have.
-Vec3d point_of(const ordered_json& value) {
-  constexpr double kMost = 3.4e38;
-  const Vec3d point = vector_of(value);
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(std::abs(point[axis]) <= kMost)) throw std::out_of_range("point");
-  return point;
-}
-
-RigidMotion motion_of(const ordered_json& value) {
-  RigidMotion motion;
-  for (std::size_t i = 0; i < 3; ++i) motion.rows[i] = point_of(value.at(i));
-  motion.shift = point_of(value.at(3));
-  return motion;
 }
 
 // Values of films that move: absent in descriptions of others.
@@ -209,7 +145,9 @@ FilmPlan::Made made_of(const ordered_json& value) {
 
 }  // namespace
 
-std::string film_plan_to_json(const FilmPlan& plan) {
+namespace {
+
+ordered_json plan_json(const FilmPlan& plan) {
   ordered_json fixed = ordered_json::object();
   fixed["size_px"] = {plan.fixed.width_px, plan.fixed.height_px};
   fixed["camera"] = camera_json(plan.fixed.camera);
@@ -222,7 +160,29 @@ std::string film_plan_to_json(const FilmPlan& plan) {
   if (plan.fixed.floor)
     fixed["floor"] = {{"point", vector_json(plan.fixed.floor->point)},
                       {"normal", vector_json(plan.fixed.floor->normal)}};
-  ordered_json document = {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
+  return {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
+}
+
+}  // namespace
+
+std::string film_of_record(const FilmPlan& plan) {
+  ordered_json document = plan_json(plan);
+  for (const char* const elsewhere : {"program", "input", "options", "metadata"}) document["asked"].erase(elsewhere);
+  return as_text(document, -1);
+}
+
+FilmPlan plan_of_record(const PictureRecord& record, const std::string& path) {
+  const Result<ordered_json> parsed = json_from_text<ordered_json>(record.film, path);
+  ordered_json document = parsed ? *parsed : ordered_json::object();
+  if (!document.is_object() || !document["asked"].is_object())
+    fail({"its record of how it was drawn is damaged", path, 0, 0, ""});
+  document["asked"].update({{"program", record.version}, {"input", nullptr}, {"options", ordered_json::array()}});
+  return parse_film_plan(as_text(document, -1), path, "its record of how it was drawn is damaged");
+}
+
+std::string film_plan_to_json(const FilmPlan& plan) {
+  ordered_json document = plan_json(plan);
+  if (plan.record) document["record"] = *json_from_text<ordered_json>(to_text(*plan.record));
   if (plan.made) document["made"] = {{"bytes", plan.made->bytes}, {"hash", hash_text(plan.made->hash)}};
   return as_text(document, 2) + "\n";
 }
@@ -240,6 +200,8 @@ FilmPlan parse_film_plan(const std::string& text, const std::string& path, const
       plan.asked = asked_of(document.at("asked"), path);
       plan.fixed = fixed_of(document.at("fixed"));
       add_moves(document.at("fixed"), plan.asked, plan.fixed);
+      if (document.contains("record"))
+        plan.record = value_or_fail(picture_record_from(as_text(document.at("record"), -1)));
       if (document.contains("made")) plan.made = made_of(document.at("made"));
       return plan;
     }

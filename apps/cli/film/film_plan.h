@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/picture_record.h"
 #include "bihive/job/rigid_motion.h"
 #include "bihive/scene/camera_path.h"
 #include "bihive/scene/frame_range.h"
@@ -30,7 +31,11 @@ struct FilmPlan {
     std::string fit_frames = "first";
     std::string range_of_colours;
     std::string codec;
+    bool metadata = true;  ///< its files say how they were made
   } asked;
+
+  /// Of the request for all pictures; unset without metadata.
+  std::optional<PictureRecord> record;
 
   /// Values from the film's first frame.
   struct Fixed {
@@ -64,6 +69,11 @@ struct FilmPlan {
 };
 
 std::string film_plan_to_json(const FilmPlan& plan);
+
+/// The part of the description that a record holds as PictureRecord::film: without the input, the options, and what
+/// differs between machines. And that part again. Fails with kBadInput if it is not one; `path` is for the message.
+std::string film_of_record(const FilmPlan& plan);
+FilmPlan plan_of_record(const PictureRecord& record, const std::string& path);
 
 /// No film has more pictures.
 constexpr std::int64_t kMostPictures = 100'000'000;

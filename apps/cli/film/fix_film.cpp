@@ -141,6 +141,7 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
   asked.rate = options.rate;
   asked.options = options.words;
   asked.path.turntable_deg = options.turntable_deg;
+  asked.path.keys = options.keys;
   if (!options.camera_keys.empty())
     asked.path.keys =
         value_or_fail(parse_camera_keys(value_or_fail(read_file(options.camera_keys)), options.camera_keys));
@@ -173,6 +174,7 @@ FilmPlan::Asked film_asked_for(const FilmOptions& options, std::int64_t frames) 
                  "leave it out");
   asked.range_of_colours = name_of(kRangesOfColours, options.range_of_colours);
   asked.codec = options.codec;
+  asked.metadata = options.picture.metadata;
   return asked;
 }
 

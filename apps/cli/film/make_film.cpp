@@ -206,10 +206,14 @@ class FilmSteps {
       draw(picture, drawn.pixels, update);
       // The threads have their buffers now.
       if (renews_limit) turn_group_limit_into_failing_allocations();
-      if (sink_ != nullptr) {
+      if (sink_ != nullptr && plan_.asked.metadata) {
         const nlohmann::ordered_json described =
             settings_json(picture.options, picture.settings, picture.input.scene, {});
-        for (auto& [name, text] : text_of(picture.input.scene, described)) drawn.text.emplace_back(name, latin1(text));
+        for (auto& [name, text] : text_of(picture.options, picture.input.scene, described))
+          drawn.text.emplace_back(name, latin1(text));
+        if (plan_.record && film_kind(options_.output) == FilmKind::pictures)
+          drawn.text.emplace_back(kLateKeyword,
+                                  to_text(record_of(picture.options, plan_.record->files, sha256_of(drawn.pixels))));
       }
       times_.trace_ms += timer.elapsed_ms();
       ++times_.pictures;

@@ -48,6 +48,7 @@ void take_film(RenderOptions& options, const FilmPlan& plan) {
     camera.eye = camera.eye + plan.fixed.shifts.at(position);
     camera.look_at = camera.look_at + plan.fixed.shifts.at(position);
   }
+  options.metadata = options.metadata && asked.metadata;
   options.fixed = FixedByFilm{camera, plan.fixed.range_of_style, plan.fixed.ranges_of_looks};
   options.fixed->fits_each = asked.fit_frames == name_of(kFittedFrames, FittedFrames::each);
   options.fixed->floor = plan.fixed.floor;

@@ -45,6 +45,10 @@ Files inputs_of(const TraceOptions& options) {
   return together({files_of(options.input), {options.rays}});
 }
 
+Files inputs_of(const SceneSaveOptions& options) {
+  return inputs_of(options.picture);
+}
+
 Files inputs_of(const ConvertOptions& options) {
   return files_of(options.input);
 }
@@ -68,6 +72,10 @@ Files outputs_of(const TraceOptions& options) {
 
 Files outputs_of(const SceneOptions& options) {
   return {options.output};
+}
+
+Files outputs_of(const SceneSaveOptions& options) {
+  return outputs_of(options.picture);
 }
 
 Files outputs_of(const ConvertOptions& options) {

@@ -15,6 +15,7 @@ std::vector<std::string> inputs_of(const RenderOptions& options);
 std::vector<std::string> inputs_of(const FilmOptions& options);
 std::vector<std::string> inputs_of(const ViewOptions& options);
 std::vector<std::string> inputs_of(const TraceOptions& options);
+std::vector<std::string> inputs_of(const SceneSaveOptions& options);
 std::vector<std::string> inputs_of(const ConvertOptions& options);
 std::vector<std::string> inputs_of(const ThesisOptions& options);
 
@@ -23,6 +24,7 @@ std::vector<std::string> outputs_of(const RenderOptions& options);
 std::vector<std::string> outputs_of(const ViewOptions& options);
 std::vector<std::string> outputs_of(const TraceOptions& options);
 std::vector<std::string> outputs_of(const SceneOptions& options);
+std::vector<std::string> outputs_of(const SceneSaveOptions& options);
 std::vector<std::string> outputs_of(const ConvertOptions& options);
 std::vector<std::string> outputs_of(const ThesisOptions& options);
 

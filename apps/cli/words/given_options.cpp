@@ -28,11 +28,12 @@ std::vector<GivenOption> given_options(const CLI::App& command, const std::vecto
 
 bool is_of_picture(const GivenOption& given) {
   static const std::vector<std::string> of_film{
-      "-o",          "--output",      "--frames",       "--pictures", "--fps",
-      "--turntable", "--camera-keys", "--colour-range", "--codec",    "--shard",
-      "--join",      "--hold-first",  "--hold-last",    "--reverse",  "--ping-pong",
-      "--json",      "--threads",     "--trajectory",   "-h",         "--help",
-      "--help-all",  "--turn-axis",   "--follow",       "--align",    "--fit-frames"};
+      "-o",           "--output",      "--frames",       "--pictures", "--fps",
+      "--turntable",  "--camera-keys", "--colour-range", "--codec",    "--shard",
+      "--join",       "--hold-first",  "--hold-last",    "--reverse",  "--ping-pong",
+      "--json",       "--threads",     "--trajectory",   "-h",         "--help",
+      "--help-all",   "--turn-axis",   "--follow",       "--align",    "--fit-frames",
+      "--no-metadata"};
   return given.option != nullptr && std::find(of_film.begin(), of_film.end(), given.name) == of_film.end();
 }
 

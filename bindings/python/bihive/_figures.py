@@ -1,4 +1,4 @@
-"""Figures: PNG files that say how they were drawn, drawn again and compared."""
+"""Figures: PNG, TIFF and OpenEXR files that say how they were drawn, drawn again and compared."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ class Verdict:
     #: Whether size, channels and bits are the same.
     same_form: bool = True
     pixels_differ: int = 0
-    #: The largest difference of a channel, in its own steps.
-    largest_difference: int = 0
+    #: The largest difference of a channel, in its own steps; of OpenEXR as numbers.
+    largest_difference: float = 0
     #: Column and row of the first pixel that differs.
     first_difference: Optional[tuple[int, int]] = None
     #: Whether the pixels of the file are not those that it says it has.
@@ -57,7 +57,7 @@ def _checked(figure: Any, source: Any) -> tuple[bytes, bytes]:
 def verify(figure: Path, input: Optional[Path] = None, *, difference: Optional[Path] = None, progress: Progress = None) -> Verdict:
     """Draws a figure again and compares every bit, as ``bihive verify`` does.
 
-    figure: the path of a PNG of bihive's, which says how it was drawn.
+    figure: the path of a PNG, TIFF or OpenEXR file of bihive's, which says how it was drawn.
     input: in place of the figure's own, which is searched by name beside the figure and in the current folder.
     difference: the path of a PNG that shows where they differ; None: none.
     progress: as of render().

@@ -25,6 +25,7 @@
 #include "bihive/job/prepare_picture.h"
 #include "bihive/job/render_on_gpu.h"
 #include "bihive/job/report_text.h"
+#include "bihive/job/scene_request.h"
 #include "bihive/render/finished_pixels.h"
 #include "bihive/render/layers.h"
 #include "bihive/render/memory.h"
@@ -56,7 +57,8 @@ struct Picture {
   std::shared_ptr<const Light> light;  // null: it was released, or the picture was unpickled
   PngPixels pixels;
   PngText text;
-  std::vector<std::pair<std::string, std::string>> exr_text;  // the same in UTF-8
+  std::vector<std::pair<std::string, std::string>> exr_text;  // the same in UTF-8, without the record
+  std::optional<PictureRecord> record;
   double dots_per_inch = 0;
   std::string report;  // JSON
   std::string methods;
@@ -136,7 +138,7 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
 
   // Keep its facts.
   const nlohmann::ordered_json described = settings_json(options, settings, scene, {});
-  for (const auto& [name, value] : text_of(scene, described)) {
+  for (const auto& [name, value] : text_of(options, scene, described)) {
     picture->text.emplace_back(name, latin1(value));
     picture->exr_text.emplace_back(name, value);
   }
@@ -145,6 +147,7 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
   if (spheres == nullptr && style_text.empty() && like == nullptr) {
     record = record_of(options, sha256_of(picture->pixels));
     picture->text.emplace_back(kLateKeyword, to_text(record));
+    picture->record = record;
   }
   record.version = version();
   record.commit = commit();
@@ -170,7 +173,8 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
 std::shared_ptr<Picture> render_picture(const std::shared_ptr<Spheres>& spheres, const std::vector<std::string>& words,
                                         const std::string& style_text, const Picture* like,
                                         const py::object& progress) {
-  const PictureRequest options = request_of(words);
+  PictureRequest options = request_of(words);
+  if (spheres == nullptr && like == nullptr) take_saved_request(options);
   std::shared_ptr<Picture> picture;
   wait_for([&](Work& work) { picture = make_picture(spheres, options, style_text, like, work); }, progress);
   return picture;
@@ -188,14 +192,30 @@ std::shared_ptr<Picture> draw_again(const std::string& path, const std::string& 
   return picture;
 }
 
+// With layers the numbers that an OpenEXR file has.
+FigurePixels pixels_of_figure(Picture& picture, const std::vector<std::string>& names, Work& work) {
+  if (names.empty()) return {std::move(picture.pixels)};
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  const std::vector<Layer> layers = value_of(layers_from_text(text));
+  const Drawing& drawing = *picture.light->drawing;
+  value_of(check_layers(drawing.input.scene, layers));
+  ExrForm form{drawing.settings.width_px, drawing.settings.height_px, drawn_pixels(drawing.settings), {}, {}, 0};
+  form.channels =
+      draw_layers(drawing.input.scene, *drawing.tracer, drawing.settings, layers, picture.light->film, &work.cancel);
+  std::sort(form.channels.begin(), form.channels.end(),
+            [](const Channel& a, const Channel& b) { return a.name < b.name; });
+  return {{}, std::move(form)};
+}
+
 // The verdict as a sentence and as JSON.
 std::pair<std::string, std::string> verify(const std::string& path, const std::string& input,
                                            const std::string& difference, const py::object& progress) {
   Verdict verdict;
   wait_for(
       [&](Work& work) {
-        verdict = verify_figure(path, input, difference, [&work](const PictureRequest& request) {
-          return std::move(make_picture(nullptr, request, "", nullptr, work)->pixels);
+        verdict = verify_figure(path, input, difference, [&](const PictureRequest& request, const auto& layers) {
+          return pixels_of_figure(*make_picture(nullptr, request, "", nullptr, work), layers, work);
         });
       },
       progress);
@@ -262,13 +282,20 @@ void save_exr(const Picture& picture, const std::string& path, const std::string
   wait_for(
       [&](Work& work) {
         const RenderSettings& settings = drawing.settings;
-        const ExrForm form{
-            settings.width_px,
-            settings.height_px,
-            drawn_pixels(settings),
-            draw_layers(drawing.input.scene, *drawing.tracer, settings, layers, light->film, &work.cancel),
-            metadata ? picture.exr_text : decltype(picture.exr_text){},
-            picture.dots_per_inch};
+        ExrForm form{settings.width_px,
+                     settings.height_px,
+                     drawn_pixels(settings),
+                     draw_layers(drawing.input.scene, *drawing.tracer, settings, layers, light->film, &work.cancel),
+                     metadata ? picture.exr_text : decltype(picture.exr_text){},
+                     picture.dots_per_inch};
+        if (metadata && picture.record) {
+          PictureRecord record = *picture.record;
+          ChannelsHash hash;
+          hash.add(form.channels, form.pixels.width());
+          record.pixels_sha256 = hash.digits();
+          for (const Layer& layer : layers) record.layers.push_back(name_of_layer(layer));
+          form.text.emplace_back(kLateKeyword, to_text(record));
+        }
         value_of(write_exr(path, form));
       },
       py::none());
@@ -282,6 +309,7 @@ void save_tiff(const Picture& picture, const std::string& path, bool metadata) {
     if (name == "Software") form.software = value;
     if (name == "Settings") form.description = value;
   }
+  if (metadata && picture.record) form.description = to_text_with_settings(*picture.record, form.description);
   if (!can_write_tiff())
     fail_environment(
         {"this build of bihive has no TIFF", path, 0, 0, "install libtiff-dev and build again, or save a PNG"});

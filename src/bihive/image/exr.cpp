@@ -4,6 +4,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
@@ -36,6 +37,10 @@ class ExrStream : public Imf::OStream {
       const Status status = file_.write_at(place_, {bytes, static_cast<std::size_t>(count)});
       if (!status) fault_ = status.error();
     }
+    if (keeps_header_) {
+      header_.resize(std::max(header_.size(), static_cast<std::size_t>(place_) + static_cast<std::size_t>(count)));
+      std::copy(bytes, bytes + count, header_.begin() + static_cast<std::ptrdiff_t>(place_));
+    }
     if (counts_places_ && count == kPlaceBytes && std::any_of(bytes, bytes + count, [](char c) { return c != 0; }))
       ++places_;
     if (fault_) throw std::runtime_error(fault_->message);
@@ -49,13 +54,23 @@ class ExrStream : public Imf::OStream {
   void count_places() { counts_places_ = true; }
   int places() const { return places_; }
 
+  /// Until now the file's header was written. Replaces a part of it.
+  void end_header() { keeps_header_ = false; }
+  Status replace_in_header(const std::string& before, const std::string& after) {
+    const std::size_t place = header_.rfind(before);
+    BIHIVE_CHECK(place != std::string::npos);
+    BIHIVE_CHECK_EQ(before.size(), after.size());
+    return file_.write_at(place, after);
+  }
+
   /// The first fault of the file.
   const std::optional<Error>& fault() const { return fault_; }
 
  private:
   GrowingFile& file_;
   std::uint64_t place_ = 0;
-  bool counts_places_ = false;
+  bool counts_places_ = false, keeps_header_ = true;
+  std::string header_;
   int places_ = 0;
   std::optional<Error> fault_;
 };
@@ -109,6 +124,7 @@ class ExrWriter::Implementation {
     return without_exceptions(path_, stream_, [&] {
       stream_.emplace(path_, file_);
       output_.emplace(*stream_, exr_header(form));
+      stream_->end_header();
     });
   }
 
@@ -146,6 +162,9 @@ class ExrWriter::Implementation {
     return file_.finish();
   }
 
+  Status replace_text(const std::string& before, const std::string& after) {
+    return stream_->replace_in_header(before, after);
+  }
   const GrowingFile& file() const { return file_; }
 
  private:
@@ -178,6 +197,9 @@ Status ExrWriter::add(const std::vector<Channel>& channels) {
 Status ExrWriter::finish() {
   return implementation_->finish();
 }
+Status ExrWriter::replace_text(const std::string& before, const std::string& after) {
+  return implementation_->replace_text(before, after);
+}
 std::string ExrWriter::path_aside() const {
   return implementation_->file().path_aside();
 }
@@ -187,6 +209,57 @@ Status write_exr(const std::string& path, const ExrForm& form) {
   if (!writer) return writer.error();
   if (Status status = writer->add(form.channels); !status) return status;
   return writer->finish();
+}
+
+namespace {
+
+// Memory for the numbers of each channel, which OpenEXR fills.
+Imf::FrameBuffer buffer_for(ExrForm& form, const Imf::ChannelList& list) {
+  const Tile& part = form.pixels;
+  const auto count = static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height());
+  for (auto one = list.begin(); one != list.end(); ++one) {
+    const bool of_ids = one.channel().type == Imf::UINT;
+    if ((!of_ids && one.channel().type != Imf::FLOAT) || one.channel().xSampling != 1 || one.channel().ySampling != 1)
+      throw std::runtime_error("the channel " + std::string(one.name()) + " has no numbers of 32 bits");
+    form.channels.push_back(
+        {one.name(), of_ids, std::vector<float>(of_ids ? 0 : count), std::vector<std::uint32_t>(of_ids ? count : 0)});
+  }
+  Imf::FrameBuffer buffer;
+  for (Channel& channel : form.channels) {
+    void* const values =
+        channel.of_ids ? static_cast<void*>(channel.ids.data()) : static_cast<void*>(channel.numbers.data());
+    buffer.insert(channel.name, Imf::Slice::Make(exr_type(channel), values, Imath::V2i(part.x0, part.y0), part.width(),
+                                                 part.height()));
+  }
+  return buffer;
+}
+
+}  // namespace
+
+Result<ExrForm> read_exr(const std::string& path) {
+  constexpr int kLargestSide = 65535;
+  ExrForm form;
+  const Status status = without_exceptions(path, std::nullopt, [&] {
+    Imf::InputFile file(path.c_str());
+    const Imf::Header& header = file.header();
+    const Imath::Box2i &whole = header.displayWindow(), &part = header.dataWindow();
+    const auto fits = [](const Imath::Box2i& box) {
+      return box.min.x >= 0 && box.min.y >= 0 && box.max.x >= box.min.x && box.max.y >= box.min.y &&
+             box.max.x < kLargestSide && box.max.y < kLargestSide;
+    };
+    if (!fits(whole) || !fits(part)) throw std::runtime_error("its windows are too large");
+    form.width_px = whole.max.x + 1;
+    form.height_px = whole.max.y + 1;
+    form.pixels = {part.min.x, part.min.y, part.max.x + 1, part.max.y + 1};
+    for (auto one = header.begin(); one != header.end(); ++one)
+      if (const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&one.attribute()))
+        form.text.emplace_back(one.name(), text->value());
+    const Imf::FrameBuffer buffer = buffer_for(form, header.channels());
+    file.setFrameBuffer(buffer);
+    file.readPixels(part.min.y, part.max.y);
+  });
+  if (!status) return status.error();
+  return form;
 }
 
 }  // namespace bihive

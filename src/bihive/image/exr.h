@@ -47,6 +47,9 @@ class ExrWriter {
   Status add(const std::vector<Channel>& channels);
   /// After the last row.
   Status finish();
+  /// Replaces `before` where it stands last in the texts of the form, by a text of the same length: for what is known
+  /// only after the pixels. Before finish().
+  Status replace_text(const std::string& before, const std::string& after);
   std::string path_aside() const;  ///< as of GrowingFile
 
  private:
@@ -57,5 +60,9 @@ class ExrWriter {
 
 /// The whole file: form.channels hold the numbers.
 Status write_exr(const std::string& path, const ExrForm& form);
+
+/// A file of numbers of 32 bits in scan lines, as ExrWriter makes it; channels by rising name. Error: it cannot be
+/// read, or has another form.
+Result<ExrForm> read_exr(const std::string& path);
 
 }  // namespace bihive

@@ -69,6 +69,16 @@ int keep_message(TIFF*, void* user, const char*, const char* format, va_list val
   return 1;
 }
 
+// From the higher byte first to this machine's order, which libtiff takes, and back.
+void exchange_orders(std::vector<std::uint8_t>& row) {
+  for (std::size_t i = 0; i + 1 < row.size(); i += 2) {
+    const auto number = static_cast<std::uint16_t>(row[i] * 256 + row[i + 1]);
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&number);
+    row[i] = bytes[0];
+    row[i + 1] = bytes[1];
+  }
+}
+
 int ignore_message(TIFF*, void*, const char*, const char*, va_list) {
   return 1;
 }
@@ -136,15 +146,17 @@ class TiffWriter::Implementation {
     for (int y = 0; y < rows.height; ++y) {
       const std::uint8_t* const from = rows.bytes.data() + static_cast<std::size_t>(y) * row_bytes;
       std::copy(from, from + row_bytes, row.begin());
-      if (form_.bits == 16) to_own_order(row);
+      if (form_.bits == 16) exchange_orders(row);
       if (TIFFWriteScanline(tiff_, row.data(), static_cast<std::uint32_t>(next_y_++), 0) != 1 || stream_.fault)
         return fault();
     }
     return Done{};
   }
 
-  Status finish() {
+  Status finish(const std::string& description) {
     BIHIVE_CHECK_EQ(next_y_, form_.height);
+    if (!description.empty()) set(TIFFTAG_IMAGEDESCRIPTION, description.c_str());
+    if (!good_) return fault();
     const bool written = TIFFWriteDirectory(tiff_) == 1;
     TIFFClose(tiff_);
     tiff_ = nullptr;
@@ -166,16 +178,6 @@ class TiffWriter::Implementation {
     Error error = stream_.fault.value_or(Error{"TIFF: writing failed", "", 0, 0, ""});
     if (error.file.empty()) error.file = path_;
     return error;
-  }
-
-  // From the higher byte first to this machine's order, which libtiff takes.
-  static void to_own_order(std::vector<std::uint8_t>& row) {
-    for (std::size_t i = 0; i + 1 < row.size(); i += 2) {
-      const auto number = static_cast<std::uint16_t>(row[i] * 256 + row[i + 1]);
-      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&number);
-      row[i] = bytes[0];
-      row[i + 1] = bytes[1];
-    }
   }
 
   std::string path_;
@@ -205,8 +207,8 @@ Result<TiffWriter> TiffWriter::begin(const std::string& path, const TiffForm& fo
 Status TiffWriter::add(const PngPixels& rows) {
   return implementation_->add(rows);
 }
-Status TiffWriter::finish() {
-  return implementation_->finish();
+Status TiffWriter::finish(const std::string& description) {
+  return implementation_->finish(description);
 }
 std::string TiffWriter::path_aside() const {
   return implementation_->file().path_aside();
@@ -217,6 +219,68 @@ Status write_tiff(const std::string& path, const TiffForm& form, const PngPixels
   if (!writer) return writer.error();
   if (Status status = writer->add(pixels); !status) return status;
   return writer->finish();
+}
+
+namespace {
+
+// libtiff's handle of a file that is read, and its first fault.
+struct TiffInput {
+  TIFF* tiff = nullptr;
+  std::string fault;
+
+  ~TiffInput() {
+    if (tiff != nullptr) TIFFClose(tiff);
+  }
+};
+
+int keep_fault(TIFF*, void* user, const char*, const char* format, va_list values) {
+  auto* const input = static_cast<TiffInput*>(user);
+  char message[256];
+  std::vsnprintf(message, sizeof(message), format, values);
+  if (input->fault.empty()) input->fault = message;
+  return 1;
+}
+
+}  // namespace
+
+Result<TiffFile> read_tiff(const std::string& path) {
+  constexpr std::uint32_t kLargestSide = 65535;
+  TiffInput input;
+  const auto refuse = [&](const std::string& what) {
+    return Error{"TIFF: " + (input.fault.empty() ? what : input.fault), path, 0, 0, ""};
+  };
+  TIFFOpenOptions* const options = TIFFOpenOptionsAlloc();
+  TIFFOpenOptionsSetErrorHandlerExtR(options, keep_fault, &input);
+  TIFFOpenOptionsSetWarningHandlerExtR(options, ignore_message, &input);
+  input.tiff = TIFFOpenExt(path.c_str(), "r", options);
+  TIFFOpenOptionsFree(options);
+  if (input.tiff == nullptr) return refuse("cannot be read");
+
+  std::uint32_t width = 0, height = 0;
+  std::uint16_t bits = 0, channels = 0, colours = 0, planes = 0;
+  const char* description = nullptr;
+  TIFFGetField(input.tiff, TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(input.tiff, TIFFTAG_IMAGELENGTH, &height);
+  TIFFGetFieldDefaulted(input.tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(input.tiff, TIFFTAG_SAMPLESPERPIXEL, &channels);
+  TIFFGetField(input.tiff, TIFFTAG_PHOTOMETRIC, &colours);
+  TIFFGetFieldDefaulted(input.tiff, TIFFTAG_PLANARCONFIG, &planes);
+  const bool is_ours = colours == PHOTOMETRIC_RGB && planes == PLANARCONFIG_CONTIG &&
+                       (channels == 3 || channels == 4) && (bits == 8 || bits == 16) && TIFFIsTiled(input.tiff) == 0;
+  if (!is_ours || width == 0 || height == 0 || width > kLargestSide || height > kLargestSide)
+    return refuse("is not of the form that bihive writes");
+  TiffFile file;
+  if (TIFFGetField(input.tiff, TIFFTAG_IMAGEDESCRIPTION, &description) == 1) file.description = description;
+  file.pixels = {static_cast<int>(width), static_cast<int>(height), channels, bits, {}};
+  const std::size_t row_bytes = file.pixels.row_bytes();
+  if (static_cast<std::size_t>(TIFFScanlineSize(input.tiff)) != row_bytes) return refuse("has rows of another size");
+  std::vector<std::uint8_t> row(row_bytes);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    if (TIFFReadScanline(input.tiff, row.data(), y, 0) != 1) return refuse("its pixels are damaged");
+    if (bits == 16) exchange_orders(row);
+    file.pixels.bytes.insert(file.pixels.bytes.end(), row.begin(), row.end());
+  }
+  return file;
 }
 
 }  // namespace bihive

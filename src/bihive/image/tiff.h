@@ -32,8 +32,8 @@ class TiffWriter {
 
   /// The next rows, of the width, channels and bits of the form.
   Status add(const PngPixels& rows);
-  /// After the last row.
-  Status finish();
+  /// After the last row. `description`: in place of the form's, for what is known only now; empty: that stays.
+  Status finish(const std::string& description = "");
   std::string path_aside() const;  ///< as of GrowingFile
 
  private:
@@ -44,5 +44,12 @@ class TiffWriter {
 
 /// The whole file.
 Status write_tiff(const std::string& path, const TiffForm& form, const PngPixels& pixels);
+
+/// The pixels of a file that TiffWriter made, as they are, and its description. Error: it has another form.
+struct TiffFile {
+  PngPixels pixels;
+  std::string description;
+};
+Result<TiffFile> read_tiff(const std::string& path);
 
 }  // namespace bihive

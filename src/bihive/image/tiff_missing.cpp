@@ -30,7 +30,7 @@ Result<TiffWriter> TiffWriter::begin(const std::string& path, const TiffForm&) {
 Status TiffWriter::add(const PngPixels&) {
   return no_tiff("");
 }
-Status TiffWriter::finish() {
+Status TiffWriter::finish(const std::string&) {
   return no_tiff("");
 }
 std::string TiffWriter::path_aside() const {
@@ -38,6 +38,10 @@ std::string TiffWriter::path_aside() const {
 }
 
 Status write_tiff(const std::string& path, const TiffForm&, const PngPixels&) {
+  return no_tiff(path);
+}
+
+Result<TiffFile> read_tiff(const std::string& path) {
   return no_tiff(path);
 }
 

@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/image/image_diff.h"
 #include "bihive/image/png.h"
+#include "bihive/image/tiff.h"
+#include "bihive/io/packed.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/report_text.h"
@@ -25,6 +30,15 @@ std::string folder_of(const std::string& figure) {
   return folder.empty() ? "." : folder.string();
 }
 
+// A pixel that differs by this.
+void count(std::int64_t place, int width, double difference, Verdict& verdict) {
+  if (verdict.pixels_differ++ == 0) {
+    verdict.x = place % width;
+    verdict.y = place / width;
+  }
+  verdict.largest = std::max(verdict.largest, difference);
+}
+
 void compare(const PngPixels& a, const PngPixels& b, Verdict& verdict) {
   verdict.same_form = a.width == b.width && a.height == b.height && a.channels == b.channels && a.bits == b.bits;
   if (!verdict.same_form || a.bytes == b.bytes) return;
@@ -35,13 +49,92 @@ void compare(const PngPixels& a, const PngPixels& b, Verdict& verdict) {
     int pixel = 0;
     for (std::size_t k = i; k < i + pixel_bytes; k += size)
       pixel = std::max(pixel, std::abs(number(&a.bytes[k]) - number(&b.bytes[k])));
-    if (pixel == 0) continue;
-    if (verdict.pixels_differ++ == 0) {
-      const auto place = static_cast<std::int64_t>(i / pixel_bytes);
-      verdict.x = place % a.width;
-      verdict.y = place / a.width;
+    if (pixel != 0) count(static_cast<std::int64_t>(i / pixel_bytes), a.width, pixel, verdict);
+  }
+}
+
+// Of the same bits, also where they are no number.
+bool same_bits(float a, float b) {
+  std::uint32_t bits_a = 0, bits_b = 0;
+  std::memcpy(&bits_a, &a, sizeof(a));
+  std::memcpy(&bits_b, &b, sizeof(b));
+  return bits_a == bits_b;
+}
+
+// 0: the same bits.
+double difference_at(const Channel& a, const Channel& b, std::size_t i) {
+  if (a.of_ids) return std::abs(static_cast<double>(a.ids[i]) - static_cast<double>(b.ids[i]));
+  if (same_bits(a.numbers[i], b.numbers[i])) return 0;
+  const double difference = std::abs(static_cast<double>(a.numbers[i]) - static_cast<double>(b.numbers[i]));
+  return difference > 0 ? difference : std::numeric_limits<double>::infinity();
+}
+
+void compare(const ExrForm& a, const ExrForm& b, Verdict& verdict) {
+  const auto same_channel = [](const Channel& one, const Channel& other) {
+    return one.name == other.name && one.of_ids == other.of_ids && one.numbers.size() == other.numbers.size() &&
+           one.ids.size() == other.ids.size();
+  };
+  const Tile &of_a = a.pixels, &of_b = b.pixels;
+  verdict.same_form =
+      a.width_px == b.width_px && a.height_px == b.height_px && of_a.x0 == of_b.x0 && of_a.y0 == of_b.y0 &&
+      of_a.x1 == of_b.x1 && of_a.y1 == of_b.y1 &&
+      std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(), same_channel);
+  if (!verdict.same_form) return;
+  const auto count_of_pixels = static_cast<std::size_t>(of_a.width()) * static_cast<std::size_t>(of_a.height());
+  for (std::size_t i = 0; i < count_of_pixels; ++i) {
+    double pixel = 0;
+    for (std::size_t k = 0; k < a.channels.size(); ++k)
+      pixel = std::max(pixel, difference_at(a.channels[k], b.channels[k], i));
+    if (pixel != 0) count(static_cast<std::int64_t>(i), of_a.width(), pixel, verdict);
+  }
+}
+
+void compare(const FigurePixels& a, const FigurePixels& b, Verdict& verdict) {
+  if (a.exr.has_value() != b.exr.has_value())
+    verdict.same_form = false;
+  else if (a.exr)
+    compare(*a.exr, *b.exr, verdict);
+  else
+    compare(a.pixels, b.pixels, verdict);
+}
+
+std::string sha256_of(const FigurePixels& figure) {
+  if (!figure.exr) return bihive::sha256_of(figure.pixels);
+  ChannelsHash hash;
+  hash.add(figure.exr->channels, figure.exr->pixels.width());
+  return hash.digits();
+}
+
+enum class FigureKind { png, tiff, exr, other };
+
+FigureKind kind_of(const std::string& path) {
+  const Result<std::string> head = read_head(path);
+  const auto begins = [&head](std::string_view bytes) { return head && head->starts_with(bytes); };
+  if (begins("\x89PNG")) return FigureKind::png;
+  if (begins(std::string_view("II*\0", 4)) || begins(std::string_view("II+\0", 4))) return FigureKind::tiff;
+  return begins("\x76\x2f\x31\x01") ? FigureKind::exr : FigureKind::other;
+}
+
+// The text of the record; empty: there is none.
+std::string read_pixels(const std::string& path, FigurePixels& pixels) {
+  const auto text_of = [](const PngText& all) {
+    const auto text = std::find_if(all.begin(), all.end(), [](const auto& one) { return one.first == kLateKeyword; });
+    return text == all.end() ? std::string() : text->second;
+  };
+  switch (kind_of(path)) {
+    case FigureKind::tiff: {
+      TiffFile file = value_or_fail(read_tiff(path));
+      pixels.pixels = std::move(file.pixels);
+      return file.description.starts_with("{\"record\"") ? file.description : "";
     }
-    verdict.largest = std::max(verdict.largest, pixel);
+    case FigureKind::exr:
+      pixels.exr = value_or_fail(read_exr(path));
+      return text_of(pixels.exr->text);
+    default: {
+      PngFileOfPixels file = value_or_fail(read_png_pixels(path));
+      pixels.pixels = std::move(file.pixels);
+      return text_of(file.text);
+    }
   }
 }
 
@@ -57,16 +150,29 @@ Image image_of(const PngPixels& pixels) {
 
 }  // namespace
 
+bool has_name_of_figure(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  for (const char* const one : {".png", ".tif", ".tiff", ".exr"})
+    if (std::equal(ending.begin(), ending.end(), one, one + std::strlen(one),
+                   [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; }))
+      return true;
+  return false;
+}
+
+bool looks_like_figure(const std::string& path) {
+  return kind_of(path) != FigureKind::other;
+}
+
 Figure read_figure(const std::string& path) {
-  PngFileOfPixels file = value_or_fail(read_png_pixels(path));
-  const auto text =
-      std::find_if(file.text.begin(), file.text.end(), [](const auto& chunk) { return chunk.first == kLateKeyword; });
-  if (text == file.text.end())
-    fail({"does not say how it was drawn", path, 0, 0,
-          "bihive render writes that into every PNG, unless it is told not to"});
-  Result<PictureRecord> record = picture_record_from(text->second);
+  Figure figure;
+  const std::string text = read_pixels(path, figure.pixels);
+  if (text.empty())
+    fail({kSaysNothing, path, 0, 0, "bihive render writes that into every picture, unless it is told not to"});
+  Result<PictureRecord> record = picture_record_from(text);
   if (!record) fail({record.error().message, path, 0, 0, record.error().hint});
-  return {std::move(file.pixels), std::move(*record)};
+  if (!record->film.empty()) fail({"is a film, and one of its pictures is wanted", path, 0, 0, ""});
+  figure.record = std::move(*record);
+  return figure;
 }
 
 PictureRequest request_again(const Figure& figure, const std::string& path, const std::string& input,
@@ -75,7 +181,7 @@ PictureRequest request_again(const Figure& figure, const std::string& path, cons
 }
 
 Verdict verify_figure(const std::string& path, const std::string& input, const std::string& difference,
-                      const std::function<PngPixels(const PictureRequest&)>& draw) {
+                      const DrawFigure& draw) {
   Verdict verdict;
   verdict.figure = path;
   try {
@@ -83,11 +189,14 @@ Verdict verify_figure(const std::string& path, const std::string& input, const s
     verdict.drawn_by = version_with_commit(figure.record.version, figure.record.commit);
     const PictureRequest request = request_again(figure, path, input, {});
     verdict.changed_files = changed_files(figure.record, request);
-    const PngPixels again = draw(request);
+    const FigurePixels again = draw(request, figure.record.layers);
     compare(figure.pixels, again, verdict);
     verdict.edited = sha256_of(figure.pixels) != figure.record.pixels_sha256;
-    if (!difference.empty() && verdict.same_form)
-      value_or_fail(write_png(difference, difference_of(image_of(figure.pixels), image_of(again)).picture, {}));
+    if (!difference.empty() && verdict.same_form) {
+      if (again.exr) fail({"has numbers, and a picture of differences is one of pixels", path, 0, 0, ""});
+      const Image there = image_of(figure.pixels.pixels), now = image_of(again.pixels);
+      value_or_fail(write_png(difference, difference_of(there, now).picture, {}));
+    }
   } catch (const Failure& failure) {
     if (failure.code == kInterrupted) throw;
     Error error = failure.error;
@@ -101,8 +210,11 @@ std::string sentence_of(const Verdict& verdict) {
   const std::string now = version_with_commit(version(), commit());
   std::string text = escaped(verdict.figure) + ": ";
   if (!verdict.error.empty()) return text + "not drawn: " + verdict.error;
+  const bool is_film = verdict.pictures > 0;
+  const std::string coded =
+      verdict.coded ? " before coding; what the file shows is coded with loss, and not compared" : "";
   if (verdict.holds())
-    return text + "the same bits" +
+    return text + "the same bits" + (is_film ? " in all " + grouped(verdict.pictures) + " pictures" + coded : "") +
            (verdict.drawn_by == now ? "" : ", drawn by " + verdict.drawn_by + ", now by " + now);
   const char* separator = "";
   const auto add = [&](const std::string& reason) {
@@ -114,9 +226,14 @@ std::string sentence_of(const Verdict& verdict) {
                              : "the file of " + setting_name(option) + " has other bytes");
   if (!verdict.same_form) add("the picture has another size or form");
   if (verdict.pixels_differ > 0)
-    add(fmt::format("{} pixel{} differ{}, by up to {}, the first at ({}, {})", grouped(verdict.pixels_differ),
+    add(fmt::format("{} pixel{} differ{}, by up to {:.6g}, the first at ({}, {})", grouped(verdict.pixels_differ),
                     verdict.pixels_differ == 1 ? "" : "s", verdict.pixels_differ == 1 ? "s" : "", verdict.largest,
                     verdict.x, verdict.y));
+  else if (verdict.pictures_differ > 0)
+    add(fmt::format("{} of {} pictures differ, the first is number {}", grouped(verdict.pictures_differ),
+                    grouped(verdict.pictures), verdict.first_picture));
+  else if (is_film)
+    add("all pictures are the same" + coded);
   else if (verdict.same_form)
     add("all pixels are the same");
   if (verdict.edited) add("the file's pixels were changed after it was drawn");
@@ -132,10 +249,20 @@ ordered_json json_of(const Verdict& verdict) {
   }
   json["drawn_by"] = verdict.drawn_by;
   json["changed_files"] = verdict.changed_files;
+  if (verdict.pictures > 0) {
+    json["pictures"] = verdict.pictures;
+    json["pictures_differ"] = verdict.pictures_differ;
+    if (verdict.pictures_differ > 0) json["first_different_picture"] = verdict.first_picture;
+    json["before_coding"] = verdict.coded;
+    json["edited"] = verdict.edited;
+    return json;
+  }
   json["same_form"] = verdict.same_form;
   json["pixels_differ"] = verdict.pixels_differ;
   if (verdict.pixels_differ > 0) {
-    json["largest_difference"] = verdict.largest;
+    const bool is_whole = verdict.largest == std::floor(verdict.largest) && verdict.largest < 65536;
+    json["largest_difference"] =
+        is_whole ? ordered_json(static_cast<int>(verdict.largest)) : ordered_json(verdict.largest);
     json["first_difference"] = {verdict.x, verdict.y};
   }
   json["edited"] = verdict.edited;

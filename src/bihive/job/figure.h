@@ -1,23 +1,38 @@
-// Figures: PNG files with the metadata from which they can be rendered again and compared (job/picture_record.h).
+// Figures: PNG, TIFF and OpenEXR files with the metadata from which they can be rendered again and compared
+// (job/picture_record.h).
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bihive/image/exr.h"
 #include "bihive/image/png_pixels.h"
 #include "bihive/job/picture_record.h"
 
 namespace bihive {
 
-struct Figure {
+/// What a file holds: pixels as a PNG has them, or the channels of an OpenEXR file by rising name.
+struct FigurePixels {
   PngPixels pixels;
+  std::optional<ExrForm> exr{};
+};
+
+struct Figure {
+  FigurePixels pixels;
   PictureRecord record;
 };
 
-/// Fails if it is no PNG, or has no record.
+/// Whether a path ends as those of such files do: .png, .tif, .tiff, .exr.
+bool has_name_of_figure(const std::string& path);
+/// Whether the file begins as such files do.
+bool looks_like_figure(const std::string& path);
+
+/// Fails if it is no such file, is a film, or has no record (then with kSaysNothing).
+inline constexpr const char* kSaysNothing = "does not say how it was drawn";
 Figure read_figure(const std::string& path);
 
 /// The request for the figure at `path`; see the other function of this name.
@@ -31,18 +46,26 @@ struct Verdict {
   std::string error;                       ///< why it could not be drawn; empty: it was
   std::vector<std::string> changed_files;  ///< options of files with other bytes
   std::int64_t pixels_differ = 0;
-  int largest = 0;              ///< difference of a channel, in its own steps
+  double largest = 0;           ///< difference of a channel, in its own steps; of OpenEXR as numbers
   std::int64_t x = -1, y = -1;  ///< the first pixel that differs
   bool edited = false;          ///< the file's pixels are not those that its record names
   bool same_form = true;        ///< size, channels and bits
 
-  bool holds() const { return error.empty() && changed_files.empty() && pixels_differ == 0 && same_form && !edited; }
+  std::int64_t pictures = 0;  ///< of a film; 0: it is a picture
+  std::int64_t pictures_differ = 0, first_picture = -1;
+  bool coded = false;  ///< the film's pictures are coded with loss, and were compared as they were before that
+
+  bool holds() const {
+    return error.empty() && changed_files.empty() && pixels_differ == 0 && pictures_differ == 0 && same_form && !edited;
+  }
 };
 
 /// Renders the figure again by `draw`, from `input` unless it is empty, and compares. `difference`: the file of a
-/// picture of what differs; empty: none. What fails is in the verdict, except an interruption.
+/// picture of what differs; empty: none. What fails is in the verdict, except an interruption. `draw` gets the layers
+/// of an OpenEXR file too; none: pixels are wanted.
+using DrawFigure = std::function<FigurePixels(const PictureRequest&, const std::vector<std::string>& layers)>;
 Verdict verify_figure(const std::string& path, const std::string& input, const std::string& difference,
-                      const std::function<PngPixels(const PictureRequest&)>& draw);
+                      const DrawFigure& draw);
 
 /// "figure.png: the same bits", or all reasons why it does not hold.
 std::string sentence_of(const Verdict& verdict);

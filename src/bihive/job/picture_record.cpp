@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
@@ -10,6 +11,8 @@
 #include "bihive/base/version.h"
 #include "bihive/io/data_path.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/film/fixed_json.h"
+#include "bihive/job/merge_settings.h"
 #include "bihive/job/picture_options.h"
 #include "bihive/job/report_text.h"
 
@@ -19,24 +22,14 @@ namespace {
 using nlohmann::ordered_json;
 using Settings = std::vector<GivenSetting>;
 
-constexpr int kRecordVersion = 1;
+// Pictures of films, and films, came with the second version: the first one would draw them with another camera.
+constexpr int kRecordVersion = 1, kRecordVersionOfFilms = 2;
 
 // Settings that change no pixel: all engines of the CPU and all their trees give the same bits.
 bool changes_nothing(const GivenSetting& setting, View view) {
   const bool shows_tree = view == View::traversal || view == View::tree;
   return setting.id == "threads" || (setting.id == "engine" && !setting.value.starts_with("gpu")) ||
          ((setting.id == "max_prims" || setting.id == "max_depth") && !shows_tree);
-}
-
-bool is_action(const std::string& id) {
-  const RequestOption<PictureRequest>* const row = picture_option(id);
-  return row != nullptr && row->repeatable && row->theme == OptionTheme::spheres;
-}
-
-std::string without_folder(const std::string& path) {
-  const std::string file = data_path(path).file;
-  const std::size_t slash = file.rfind('/');
-  return slash == std::string::npos ? path : path.substr(slash + 1);
 }
 
 // Empty if the file cannot be read.
@@ -66,29 +59,6 @@ std::string found_file(const RecordedFile& file, const std::string& folder) {
              is_input ? "name the input after the figure" : "give " + setting_name(file.option) + " with its path");
 }
 
-// Whether a change makes a recorded setting void.
-bool replaces(const std::string& change, const std::string& recorded) {
-  if (change == recorded) return true;
-  const auto excludes = [](const std::string& id, const std::string& other) {
-    const RequestOption<PictureRequest>* const row = picture_option(id);
-    return row != nullptr && std::find(row->excludes.begin(), row->excludes.end(), other) != row->excludes.end();
-  };
-  if (excludes(change, recorded) || excludes(recorded, change)) return true;
-  const auto is_colour = [](const std::string& id) { return id == "colour" || id == "colour_by"; };
-  return is_colour(change) && is_colour(recorded);
-}
-
-// The value of the next colour_by among the options as understood: with colours in place of a map's file.
-std::string next_colour_by(const std::vector<std::string>& words, std::size_t& next) {
-  const std::string option = option_of_setting("colour_by") + " ";
-  while (next < words.size() && !words[next].starts_with(option)) ++next;
-  return next < words.size() ? words[next++].substr(option.size()) : "";
-}
-
-Settings::const_iterator first_selection(const Settings& settings) {
-  return std::find_if(settings.begin(), settings.end(), [](const GivenSetting& one) { return one.id == "select"; });
-}
-
 ordered_json pairs(const Settings& settings) {
   ordered_json json = ordered_json::array();
   for (const GivenSetting& one : settings) json.push_back({one.id, one.value});
@@ -97,41 +67,83 @@ ordered_json pairs(const Settings& settings) {
 
 }  // namespace
 
-PictureRecord record_of(const PictureRequest& request, std::string pixels_sha256) {
-  PictureRecord record{std::string(version()), std::string(commit()), "", {}, {}, std::move(pixels_sha256)};
+std::string without_folder(const std::string& path) {
+  const std::string file = data_path(path).file;
+  const std::size_t slash = file.rfind('/');
+  return slash == std::string::npos ? path : path.substr(slash + 1);
+}
+
+std::vector<RecordedFile> files_of_record(const PictureRequest& request) {
+  std::vector<RecordedFile> files;
   const std::string& input = request.input.input;
-  if (is_built_in_scene(input))
-    record.built_in = input;
-  else if (!input.empty() && input != kStandardStream)
-    record.files.push_back(recorded_file(kInputFile, input));
-  std::size_t next_word = 0;
-  for (GivenSetting one : request.given) {
-    if (changes_nothing(one, request.view)) continue;
-    if (one.id == "colour_by") one.value = next_colour_by(request.looks.words, next_word);
-    if (!names_file(one.id, one.value)) record.settings.push_back(std::move(one));
+  if (!is_built_in_scene(input) && !input.empty() && input != kStandardStream)
+    files.push_back(recorded_file(kInputFile, input));
+  for (const GivenSetting& one : ordered_settings(request))
+    if (names_file(one.id, one.value)) files.push_back(recorded_file(one.id, one.value));
+  return files;
+}
+
+PictureRecord record_of(const PictureRequest& request, const std::vector<RecordedFile>& files,
+                        std::string pixels_sha256) {
+  PictureRecord record{std::string(version()), std::string(commit()), "", files, {}, {}, std::move(pixels_sha256)};
+  if (is_built_in_scene(request.input.input)) record.built_in = request.input.input;
+  if (request.fixed) {
+    record.fixed = request.fixed;
+    record.frame = request.input.reading.options().frame;
   }
-  for (const GivenSetting& file : files_named_by(request))
-    if (file.id != "colour_by") record.files.push_back(recorded_file(file.id, file.value));
-  // Actions in their order after everything else, whose order means nothing: the same in every front end.
-  const auto place = [](const GivenSetting& one) {
-    return is_action(one.id) ? picture_options().size()
-                             : static_cast<std::size_t>(picture_option(one.id) - picture_options().data());
-  };
-  std::stable_sort(record.settings.begin(), record.settings.end(),
-                   [&](const GivenSetting& a, const GivenSetting& b) { return place(a) < place(b); });
+  for (GivenSetting& one : ordered_settings(request))
+    if (!changes_nothing(one, request.view) && !names_file(one.id, one.value) && !(request.fixed && one.id == "frame"))
+      record.settings.push_back(std::move(one));
   return record;
 }
 
+PictureRecord record_of(const PictureRequest& request, std::string pixels_sha256) {
+  return record_of(request, files_of_record(request), std::move(pixels_sha256));
+}
+
+void ChannelsHash::add(const std::vector<Channel>& rows, int width) {
+  std::vector<const Channel*> sorted;
+  for (const Channel& channel : rows) sorted.push_back(&channel);
+  std::sort(sorted.begin(), sorted.end(), [](const Channel* a, const Channel* b) { return a->name < b->name; });
+  const auto size = static_cast<std::size_t>(width);
+  const Channel& first = *sorted.front();
+  const std::size_t count = (first.of_ids ? first.ids.size() : first.numbers.size()) / size;
+  for (std::size_t y = 0; y < count; ++y)
+    for (const Channel* const channel : sorted) {
+      const void* const numbers = channel->of_ids ? static_cast<const void*>(channel->ids.data() + y * size)
+                                                  : static_cast<const void*>(channel->numbers.data() + y * size);
+      sha_.add({static_cast<const char*>(numbers), size * sizeof(float)});
+    }
+}
+
 std::string to_text(const PictureRecord& record) {
-  ordered_json json{{"record", kRecordVersion}, {"version", record.version}};
+  const bool is_of_film = record.fixed || !record.film.empty();
+  ordered_json json{{"record", is_of_film ? kRecordVersionOfFilms : kRecordVersion}, {"version", record.version}};
   if (!record.commit.empty()) json["commit"] = record.commit;
   if (!record.built_in.empty()) json["scene"] = record.built_in;
   json["files"] = ordered_json::array();
   for (const RecordedFile& file : record.files)
     json["files"].push_back({{"option", file.option}, {"name", file.name}, {"sha256", file.sha256}});
   json["options"] = pairs(record.settings);
-  json["pixels"] = record.pixels_sha256;
+  if (!record.layers.empty()) json["layers"] = record.layers;
+  if (record.fixed) {
+    json["frame"] = record.frame;
+    json["fixed"] = fixed_json(*record.fixed);
+  }
+  if (record.film.empty()) {
+    json["pixels"] = record.pixels_sha256;
+  } else {
+    json["film"] = *json_from_text<ordered_json>(record.film);
+    json["pictures"] = record.pictures_sha256;
+  }
   return as_text(json, -1);
+}
+
+std::string to_text_with_settings(const PictureRecord& record, const std::string& settings) {
+  std::string text = to_text(record);
+  if (settings.empty()) return text;
+  text.pop_back();
+  return text + ",\"settings\":" + settings + "}";
 }
 
 Result<PictureRecord> picture_record_from(std::string_view text) {
@@ -139,7 +151,7 @@ Result<PictureRecord> picture_record_from(std::string_view text) {
   const Result<ordered_json> json = json_from_text<ordered_json>(text);
   if (!json || !json->is_object() || !json->contains("record")) return damaged;
   try {
-    if (json->at("record").get<int>() > kRecordVersion)
+    if (json->at("record").get<int>() > kRecordVersionOfFilms)
       return Error{"its record of how it was drawn is of a later version of bihive", "", 0, 0, "use that version"};
     PictureRecord record;
     record.version = json->at("version").get<std::string>();
@@ -151,7 +163,17 @@ Result<PictureRecord> picture_record_from(std::string_view text) {
                               file.at("sha256").get<std::string>()});
     for (const ordered_json& pair : json->at("options"))
       record.settings.push_back({pair.at(0).get<std::string>(), pair.at(1).get<std::string>()});
-    record.pixels_sha256 = json->at("pixels").get<std::string>();
+    record.layers = json->value("layers", record.layers);
+    if (json->contains("fixed")) {
+      record.fixed = fixed_by_film_of(json->at("fixed"));
+      record.frame = std::max<std::int64_t>(0, json->at("frame").get<std::int64_t>());
+    }
+    if (json->contains("film")) {
+      record.film = as_text(json->at("film"), -1);
+      record.pictures_sha256 = json->at("pictures").get<std::vector<std::string>>();
+    } else {
+      record.pixels_sha256 = json->at("pixels").get<std::string>();
+    }
     // Settings are data from a file, and open no file that is not listed.
     for (const GivenSetting& one : record.settings)
       if (picture_option(one.id) == nullptr || names_file(one.id, one.value)) return damaged;
@@ -160,6 +182,8 @@ Result<PictureRecord> picture_record_from(std::string_view text) {
     return record;
   } catch (const nlohmann::json::exception&) {
     return damaged;
+  } catch (const std::out_of_range&) {
+    return damaged;
   }
 }
 
@@ -167,33 +191,30 @@ PictureRequest request_again(const PictureRecord& record, const std::string& fol
                              const Settings& changes) {
   PictureRequest request;
   request.input.input = !input.empty() ? input : record.built_in;
-  const auto selection = first_selection(changes);
-  const Settings of_all(changes.begin(), selection), of_selected(selection, changes.end());
-
-  // Recorded actions after a selection stay; anything else gives way to a change.
-  bool selected = false;
-  const auto is_replaced = [&](const std::string& id) {
-    return !(selected && is_action(id)) && std::any_of(of_all.begin(), of_all.end(), [&](const GivenSetting& change) {
-      return replaces(change.id, id);
-    });
-  };
-  const auto take_all = [&request](const Settings& settings) {
-    for (const GivenSetting& one : settings) take_setting(request, one.id, one.value);
-  };
+  if (record.fixed)
+    for (const GivenSetting& one : changes)
+      if (picture_option(one.id)->theme == OptionTheme::camera)
+        fail_setting(one.id, " changes the camera, and this picture of a film has that of the film",
+                     "draw a picture of the input by bihive render");
+  Settings kept;
   for (const RecordedFile& file : record.files)
-    if (file.option == kInputFile) {
-      if (request.input.input.empty()) request.input.input = found_file(file, folder);
-    } else if (!is_replaced(file.option)) {
-      take_setting(request, file.option, found_file(file, folder));
-    }
+    if (file.option != kInputFile)
+      kept.push_back({file.option, file.name});
+    else if (request.input.input.empty())
+      request.input.input = found_file(file, folder);
   if (request.input.input.empty())
     fail_usage("the figure was drawn from spheres that came from no file", "name an input after the figure");
-  take_all(of_all);
-  for (const GivenSetting& one : record.settings) {
-    selected = selected || one.id == "select";
-    if (!is_replaced(one.id)) take_setting(request, one.id, one.value);
-  }
-  take_all(of_selected);
+  kept.insert(kept.end(), record.settings.begin(), record.settings.end());
+  merge_settings(request, kept, changes, [&](const GivenSetting& one) {
+    if (!names_file(one.id, one.value)) return one.value;
+    const auto file = std::find_if(record.files.begin(), record.files.end(), [&one](const RecordedFile& recorded) {
+      return recorded.option == one.id && recorded.name == one.value;
+    });
+    return found_file(*file, folder);
+  });
+  request.fixed = record.fixed;
+  if (record.fixed && !is_generated(request.input.input) && !request.input.reading.has("frame"))
+    request.input.reading.set_frame(record.frame);
   return request;
 }
 

@@ -16,6 +16,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/floor.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/picture_record.h"
 #include "bihive/job/title_values.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/frame_picture.h"
@@ -300,9 +301,15 @@ ordered_json settings_json(const PictureRequest& request, const RenderSettings& 
   return json;
 }
 
-std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const ordered_json& settings) {
+std::vector<std::pair<std::string, std::string>> text_of(const PictureRequest& request, const Scene& scene,
+                                                         const ordered_json& settings) {
+  // Files of pictures are the same in all folders.
+  ordered_json without_folders = settings;
+  for (const char* const file : {"trajectory", "element_colours"})
+    if (settings.contains(file)) without_folders[file] = without_folder(settings[file].get<std::string>());
+  const std::string name = scene.name == request.input.input ? without_folder(scene.name) : scene.name;
   std::vector<std::pair<std::string, std::string>> text{
-      {"Software", "bihive " + std::string(version())}, {"Scene", scene.name}, {"Settings", as_text(settings, -1)}};
+      {"Software", "bihive " + std::string(version())}, {"Scene", name}, {"Settings", as_text(without_folders, -1)}};
   if (scene.seed) text.emplace_back("Seed", std::to_string(*scene.seed));
   return text;
 }

@@ -36,6 +36,7 @@ nlohmann::ordered_json settings_json(const PictureRequest& request, const Render
                                      const std::vector<Layer>& layers);
 
 /// The text chunks of the file.
-std::vector<std::pair<std::string, std::string>> text_of(const Scene& scene, const nlohmann::ordered_json& settings);
+std::vector<std::pair<std::string, std::string>> text_of(const PictureRequest& request, const Scene& scene,
+                                                         const nlohmann::ordered_json& settings);
 
 }  // namespace bihive

@@ -474,6 +474,9 @@ Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, 
   if (document->contains("bihive_film"))
     return Error{"is the description of a film, not a scene", name, 0, 0,
                  "name the film's input, and this file after " + setting_name("film")};
+  if (document->is_object() && document->contains("input"))
+    return Error{"is a picture of another input, and holds no spheres", name, 0, 0,
+                 "name that input, or draw the picture by bihive render"};
   const Status status = check_against_schema(*document, name);
   if (!status) return status.error();
   return Extraction(*document, name, options, looks, style).run();
