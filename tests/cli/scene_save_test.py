@@ -23,7 +23,7 @@ VALUES = {
     "cell_origin": "1,2,3", "select": 'name "C\'" or chain A', "colour": "#ff0000", "colour_by": "b_factor:magma:10,60:log", "nan_colour": "grey",
     "opacity": "0.5", "material": "metal", "radius_scale": "0.8", "outline": "2", "crease": "chain", "legend_name": "größer \"als\" \\ 5",
     "clip": "plane:0,0,1,0", "element_colours": "jmol", "cell_width": "2", "cell_colour": "red", "title": "--t = {time:.1f}",
-    "legend_title": "Charge (e)", "length_unit": "nm", "title_values": "log.csv",
+    "legend_title": "Charge (e)", "length_unit": "nm", "title_values": "log.csv", "smooth": "5", "font": "letters.ttf", "floor": "shadow",
 }
 IMPLIED = {"nan_colour": ["--colour-by", "b_factor"]}
 
