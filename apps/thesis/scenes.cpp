@@ -8,6 +8,8 @@
 #include <numeric>
 #include <set>
 
+#include "bihive/base/json_text.h"
+#include "bihive/scene/scene_file.h"
 #include "pictures.h"
 
 namespace bihive::thesis {
@@ -79,22 +81,13 @@ double spacing_difference(const SphereSet& spheres, const Ids& ids) {
   return most - least;
 }
 
-Json material_facts(const Material& material) {
-  return {{"colour", numbers_of(material.colour)}, {"ambient", material.ambient},
-          {"diffuse", material.diffuse},           {"reflective", material.reflective},
-          {"specular", material.specular},         {"power", material.power},
-          {"transmissive", material.transmissive}, {"refraction_index", material.refraction_index}};
-}
-
+// The scene as a scene file has it, without its spheres; and what follows from it.
 Json scene_facts(const Scene& scene) {
-  const PointLight& light = scene.lights.at(0);
-  const Plane& plane = scene.plane->plane;
-  return {{"camera", {{"eye", numbers_of(scene.camera.eye)}, {"needed_fov_deg", needed_fov_deg(scene)}}},
-          {"lights", scene.lights.size()},
-          {"light", {{"position", numbers_of(light.position)}, {"colour", numbers_of(light.colour)}}},
-          {"plane", {{"point", numbers_of(plane.point)}, {"normal", numbers_of(plane.normal)}}},
-          {"red", material_facts(material_of(scene, 0))},
-          {"transparent", material_facts(material_of(scene, 1))}};
+  Json facts = value_or_fail(json_from_text<Json>(scene_to_json(scene)));
+  facts.erase("spheres");
+  facts["light_count"] = scene.lights.size();
+  facts["camera"]["needed_fov_deg"] = needed_fov_deg(scene);
+  return facts;
 }
 
 Json draw_scenario(const Experiment& experiment, std::int64_t number) {

@@ -88,7 +88,7 @@ TEST(CountedFigure, CountsRaysAloneAndInLockstep) {
         EXPECT_LT(block.inner, 32 * one.inner);
       }
     }
-  EXPECT_NE(by_node.at({2, 64}).at(8).inner, by_leaf.at({2, 64}).at(8).inner);
+  EXPECT_NE(by_node.at({2, 64}).at(1).inner, by_leaf.at({2, 64}).at(1).inner);
 }
 
 // One ray for 8 x 4 pixels is a block of one kind: rays that start and go alike have the work of one.

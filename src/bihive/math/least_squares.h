@@ -67,7 +67,7 @@ template <std::size_t kUnknowns>
 LeastSquares<kUnknowns> nonnegative_least_squares(const std::vector<std::array<double, kUnknowns>>& rows) {
   LeastSquares<kUnknowns> best;
   for (std::size_t set = 1; set < (std::size_t{1} << kUnknowns); ++set) {
-    std::array<bool, kUnknowns> used;
+    std::array<bool, kUnknowns> used{};
     for (std::size_t i = 0; i < kUnknowns; ++i) used[i] = (set >> i & 1) != 0;
     const LeastSquares<kUnknowns> one = least_squares_of(rows, used);
     if (one.residual < best.residual) best = one;

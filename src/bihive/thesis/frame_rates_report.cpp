@@ -152,6 +152,7 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
     for (const auto& [name, value] : costs->fitted.named()) row[name] = value;
     row.update({{"inner_words", costs->fitted.words().inner},
                 {"leaf_words", costs->fitted.words().leaf},
+                {"determined", costs->fitted.determined()},
                 {"rms", costs->fitted.rms},
                 {"winner", tree_name(costs->pattern.max_prims)},
                 {"wins", costs->wins},

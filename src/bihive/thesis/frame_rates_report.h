@@ -41,8 +41,8 @@ Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues
 /// {"experiment", "engine", "device", (its facts), "width_px", "height_px", "quick", "rounds", "complete", "drift",
 /// "configurations": [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains":
 /// [{"scenario", "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}; with
-/// `costs` also "costs": {the members of FittedCosts::named(), "inner_words", "leaf_words", "rms", "winner", "wins",
-/// "configurations"}.
+/// `costs` also "costs": {the members of FittedCosts::named(), "inner_words", "leaf_words", "determined", "rms",
+/// "winner", "wins", "configurations"}.
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
                              const MeasuringDevice& device, const MeasuredCosts* costs = nullptr);
 
