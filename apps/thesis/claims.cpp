@@ -175,6 +175,7 @@ const char* compared(const std::string& is, const Json& quantity, const Json& en
 
 std::string expected_text(const Json& entry, const std::string& is, const std::string& printed) {
   if (entry.contains("expects")) return entry["expects"];
+  if (entry["value"].is_array() && !entry.contains("printed")) return text_of(entry["value"], {{"is", is}});
   if (is == "above") return "above " + printed;
   if (is == "within a factor") return fmt::format("{}, within a factor of {}", printed, entry.value("tolerance", 0.0));
   return printed;

@@ -16,7 +16,7 @@ struct TimedProgram {
   /// {"width_px", "height_px", "frame_ms": {"brute": [ms, ...], "max_prims8": [...]}}, and what else it says; null if
   /// cancelled; {"missing": why} if this machine cannot.
   Json (*measure)(const Experiment& experiment, std::int64_t scenario, std::int64_t spheres);
-  double weight;  ///< of its steps: seconds of a full run, of all configurations
+  double weight;  ///< of each of its steps
 };
 const std::vector<TimedProgram>& timed_programs();
 

@@ -16,8 +16,8 @@
 namespace bihive::thesis {
 namespace {
 
-// A quick run counts the rays of every kQuickStride-th row and column. Other seeds and variations of the picture are
-// counted more coarsely.
+// A quick run counts the rays of every kQuickStride-th row and column. Other seeds and variations are counted more
+// coarsely.
 constexpr int kQuickStride = 4, kOtherStride = 4, kQuickOtherStride = 8;
 constexpr std::uint64_t kSeeds = 60, kQuickSeeds = 5;
 // Rows of the table: a leaf in inner nodes.
@@ -27,22 +27,32 @@ constexpr int kTries = 21;
 constexpr double kFixedCosts[] = {0, 0.5, 1, 1.5, 2, 3};
 
 // The names of steps.
-std::string step_of(const char* what, std::int64_t scenario) {
+std::string step_of(const std::string& what, std::int64_t scenario) {
   return fmt::format("{}-scenario{}", what, scenario);
 }
 std::string step_of(const TimedProgram& program, Configuration of) {
   return fmt::format("{}-scenario{}-spheres{}", program.key, of.first, of.second);
 }
 
-// Rows of values.json: an assumption on which the results depend, and to what it is changed to see how much.
+// Rows of values.json: an assumption on which the results depend, and to what it is changed to see how much. The first
+// changes nothing.
 Json variations(const Experiment& experiment) {
   return experiment.values.document().value("variations", Json::array());
 }
 
+Counting counting_of(const Json& variation) {
+  const std::string name = variation.value("counting", "each_ray");
+  for (const auto& [known, counting] : {std::pair{"each_ray", Counting::each_ray},
+                                        {"without_culling", Counting::without_culling},
+                                        {"lockstep_by_node", Counting::lockstep_by_node},
+                                        {"lockstep_by_leaf", Counting::lockstep_by_leaf}})
+    if (name == known) return counting;
+  fail({"/variations: there is no counting \"" + name + "\"", "values.json", 0, 0, ""});
+}
+
 // [{"scenario", "spheres", "max_prims", "inner", "leaves", "tests"}], or null if cancelled.
-Json count_rays(const Experiment& experiment, const FrameRatePlan& plan, int stride, int quick_stride) {
-  const Result<FigureWork> work =
-      counted_figure(plan, experiment.settings.quick ? quick_stride : stride, &experiment.cancel);
+Json count_rays(const Experiment& experiment, const FrameRatePlan& plan, int stride, Counting counting) {
+  const Result<FigureWork> work = counted_figure(plan, stride, &experiment.cancel, counting);
   if (experiment.cancel.cancelled()) return {};
   Json rows = Json::array();
   for (const auto& [configuration, trees] : value_or_fail(work))
@@ -61,11 +71,30 @@ void add_work(const Json& rows, FigureWork& work) {
     work[{row["scenario"], row["spheres"]}][row["max_prims"]] = {row["inner"], row["leaves"], row["tests"]};
 }
 
-Json count_seeds(const Experiment& experiment, FrameRatePlan plan) {
-  Json seeds = Json::array();
-  for (plan.seed = 1; plan.seed <= (experiment.settings.quick ? kQuickSeeds : kSeeds); ++plan.seed)
-    seeds.push_back(count_rays(experiment, plan, kOtherStride, kQuickOtherStride));
-  return seeds;
+// The text's trees of a scenario, and trees of larger leaves, up to one leaf.
+Json count_scenario(const Experiment& experiment, std::int64_t scenario) {
+  FrameRatePlan plan = plan_of(experiment);
+  plan.scenarios = {scenario};
+  for (const std::int64_t more : experiment.values.integers("max_prims_beyond")) plan.max_prims.push_back(more);
+  plan.max_prims.push_back(kUnlimited);
+  return count_rays(experiment, plan, experiment.settings.quick ? kQuickStride : 1, Counting::each_ray);
+}
+
+// The rows of each seed 1, 2, ...; a scenario without random numbers has one.
+Json count_variation(const Experiment& experiment, const Json& variation, std::int64_t scenario) {
+  FrameRatePlan plan = plan_of(experiment);
+  plan.scenarios = {scenario};
+  plan.width_px = variation.value("width_px", plan.width_px);
+  plan.height_px = variation.value("height_px", plan.height_px);
+  plan.fov_deg = variation.value("fov_deg", plan.fov_deg);
+  plan.radius = variation.value("radius", plan.radius);
+  plan.corner_side = variation.value("corner_side", plan.corner_side);
+  const bool quick = experiment.settings.quick;
+  const std::uint64_t seeds = scenario_of(scenario) == Scenario::grid ? 1 : quick ? kQuickSeeds : kSeeds;
+  Json all = Json::array();
+  for (plan.seed = 1; plan.seed <= seeds; ++plan.seed)
+    all.push_back(count_rays(experiment, plan, quick ? kQuickOtherStride : kOtherStride, counting_of(variation)));
+  return all;
 }
 
 std::string ranges_text(const std::vector<CostRange>& ranges) {
@@ -98,7 +127,8 @@ class FigureData {
 
   Json all() {
     if (work_.size() == plan_.scenarios.size() * plan_.spheres.size()) {
-      collect_seeds();
+      seeds_ = figures_of("seeds");
+      data_["seeds"] = seeds_.size();
       for (const TimedProgram& program : timed_programs()) fit(program);
       add_diagram();
       add_leaf_costs();
@@ -112,15 +142,26 @@ class FigureData {
   }
 
  private:
-  // One figure for each seed that was counted. A scenario without random numbers is the same with every seed.
-  void collect_seeds() {
+  // A variation's figure with each seed that was counted; none if a step is missing.
+  std::vector<FigureWork> figures_of(const std::string& variation) const {
+    std::vector<const Json*> scenarios;
+    std::size_t seeds = 0;
     for (const std::int64_t scenario : plan_.scenarios) {
-      const Json* const result = experiment_.result(step_of("seeds", scenario));
-      if (result == nullptr) return seeds_.clear();
-      seeds_.resize(result->size());
-      for (std::size_t seed = 0; seed < seeds_.size(); ++seed) add_work((*result)[seed], seeds_[seed]);
+      scenarios.push_back(experiment_.result(step_of(variation, scenario)));
+      if (scenarios.back() == nullptr) return {};
+      seeds = std::max(seeds, scenarios.back()->size());
     }
-    data_["seeds"] = seeds_.size();
+    std::vector<FigureWork> figures(seeds);
+    for (const Json* const of_seeds : scenarios)
+      for (std::size_t seed = 0; seed < seeds; ++seed)
+        add_work((*of_seeds)[std::min(seed, of_seeds->size() - 1)], figures[seed]);
+    return figures;
+  }
+
+  // With how many of the seeds the pattern holds somewhere.
+  std::int64_t with_pattern(const std::vector<FigureWork>& seeds, double leaf) const {
+    return std::count_if(seeds.begin(), seeds.end(),
+                         [&](const FigureWork& seed) { return !wins_by_cost(seed, pattern_, leaf).pattern.empty(); });
   }
 
   // Rates and costs from a program's own times.
@@ -149,14 +190,19 @@ class FigureData {
     const std::string gpu = last.value("gpu", "");
     const bool software = is_software(gpu);
     const std::string name = program.name + std::string(software ? " in software, no graphics processor" : "");
-    Json row{{"key", program.key}, {"name", name}, {"gpu", gpu}, {"software", software}};
+    Json row{{"key", program.key},
+             {"name", name},
+             {"gpu", gpu},
+             {"software", software},
+             {"determined", fitted.determined()},
+             {"inner_words", fitted.words().inner},
+             {"leaf_words", fitted.words().leaf},
+             {"rms_percent", 100 * fitted.rms},
+             {"frames", fitted.frames},
+             {"wins", wins_of(work_, pattern_, fitted.costs())}};
     for (const auto& [cost, value] : fitted.named()) row[cost] = value;
-    row["leaf_at_bound"] = fitted.leaf_ns == 0;
-    data_["rates"].back()["costs"] = costs_text(fitted.costs());
-    row.update({{"rms_percent", 100 * fitted.rms},
-                {"frames", fitted.frames},
-                {"wins", wins_of(work_, pattern_, fitted.costs())}});
     if (!gpu.empty()) row["one_sphere_ms"] = median(last.at("one_sphere_ms").get<std::vector<double>>());
+    if (fitted.determined()) data_["rates"].back()["costs"] = costs_text(fitted.costs());
     data_["fits"].push_back(std::move(row));
     fits_.push_back({program.key, name, fitted, software});
   }
@@ -165,14 +211,12 @@ class FigureData {
   void add_rates(const TimedProgram& program, const EngineTimes& times) {
     Json rows = Json::array();
     for (const auto& [configuration, one] : times) {
-      Json trees = Json::array();
+      Json& row = rows.emplace_back(Json{{"scenario", configuration.first},
+                                         {"spheres", configuration.second},
+                                         {"brute_fps", frames_per_second(one.brute)},
+                                         {"gain_percent", one.gain_percent()}});
       for (const auto& [prims, ms] : one.trees)
-        trees.push_back({{"tree", tree_name(prims)}, {"fps", frames_per_second(ms)}});
-      rows.push_back({{"scenario", configuration.first},
-                      {"spheres", configuration.second},
-                      {"brute_fps", frames_per_second(one.brute)},
-                      {"trees", std::move(trees)},
-                      {"gain_percent", one.gain_percent()}});
+        row["trees"].push_back({{"tree", tree_name(prims)}, {"fps", frames_per_second(ms)}});
     }
     data_["rates"].push_back(
         {{"key", program.key}, {"trees", plan_.max_prims}, {"rows", std::move(rows)}, {"name", program.name}});
@@ -185,7 +229,7 @@ class FigureData {
   void add_diagram() const {
     CostDiagram diagram = cost_diagram(work_, pattern_, seeds_);
     for (const auto& [key, name, fitted, software] : fits_)
-      diagram.points.push_back({name.substr(0, name.find(',')), fitted});
+      if (fitted.determined()) diagram.points.push_back({name.substr(0, name.find(',')), fitted});
     write("costs.svg", cost_diagram_svg(diagram));
     write("costs.csv", cost_diagram_csv(diagram));
     const Json numbers = {{"inner_node_per_sphere_test", diagram.inner},
@@ -204,9 +248,6 @@ class FigureData {
     Json fails;  // the first of the largest costs of a leaf, at which the pattern holds nowhere
     for (const double leaf : kLeafCosts) {
       const WinsByCost found = wins_by_cost(work_, pattern_, leaf);
-      const auto with = std::count_if(seeds_.begin(), seeds_.end(), [&](const FigureWork& seed) {
-        return !wins_by_cost(seed, pattern_, leaf).pattern.empty();
-      });
       if (!found.pattern.empty())
         fails = nullptr;
       else if (fails.is_null())
@@ -219,7 +260,7 @@ class FigureData {
                                      {"stated_text", ranges_text(found.stated)},
                                      {"pattern_text", ranges_text(found.pattern)},
                                      {"pattern", std::move(ranges)},
-                                     {"seeds_with", with}});
+                                     {"seeds_with", with_pattern(seeds_, leaf)}});
     }
     const WinsByCost free = wins_by_cost(work_, pattern_, 0);
     const bool same_number = static_cast<std::int64_t>(work_.size()) == values_.integer("winner.configurations");
@@ -231,17 +272,15 @@ class FigureData {
   }
 
   void add_variations() {
-    for (const Json& variation : variations(experiment_)) {
-      const Json* const rows = experiment_.result(variation["key"]);
-      if (rows == nullptr) continue;
-      FigureWork work;
-      add_work(*rows, work);
-      const WinsByCost found = wins_by_cost(work, pattern_, 0);
-      data_["variations"].push_back({{"what", variation["what"]},
-                                     {"usual", variation["usual"]},
-                                     {"other", variation["other"]},
-                                     {"most_wins", found.most},
-                                     {"pattern_text", ranges_text(found.pattern)}});
+    for (Json row : variations(experiment_)) {
+      const std::vector<FigureWork> seeds = figures_of(row["key"]);
+      if (seeds.empty()) continue;
+      const WinsByCost first = wins_by_cost(seeds.front(), pattern_, 0);
+      row.update({{"most_wins", first.most},
+                  {"pattern_text", ranges_text(first.pattern)},
+                  {"seeds_with", with_pattern(seeds, 0)},
+                  {"seeds", seeds.size()}});
+      data_["variations"].push_back(std::move(row));
     }
   }
 
@@ -295,7 +334,7 @@ class FigureData {
       row["elsewhere"] = Json::array();
     }
     for (const auto& [key, name, fitted, software] : fits_) {
-      if (software) continue;  // no verdict
+      if (software || !fitted.determined()) continue;  // no verdict
       programs.push_back({{"name", name}, {"costs", costs_text(fitted.costs())}});
       data_["at"][key] = quantities_at(work_, pattern_, fitted.costs(), values_);
       const Json there = findings_at(data_["at"][key]);
@@ -312,16 +351,14 @@ class FigureData {
   // Brute force in the scenarios and with all spheres at one position: the slowest over the fastest.
   void add_brute_force(const Json& result) {
     double most = 0, most_with_one_place = 0;
-    for (const Json& times : result) {
-      std::vector<double> ms;
-      for (const std::int64_t scenario : plan_.scenarios) ms.push_back(times.at(fmt::format("scenario{}", scenario)));
-      ms.push_back(times.at("one_place"));
-      const auto ratio = [&ms](auto end) {
-        const auto [least, greatest] = std::minmax_element(ms.begin(), end);
-        return *greatest / *least;
-      };
-      most = std::max(most, ratio(ms.end() - 1));
-      most_with_one_place = std::max(most_with_one_place, ratio(ms.end()));
+    const auto spread = [](const Json& ms) {
+      const auto [least, greatest] = std::minmax_element(ms.begin(), ms.end());
+      return greatest->get<double>() / least->get<double>();
+    };
+    for (Json times : result) {
+      most_with_one_place = std::max(most_with_one_place, spread(times));
+      times.erase("one_place");
+      most = std::max(most, spread(times));
     }
     data_["brute_force"] = {{"scenarios_ratio", most}, {"one_place_ratio", most_with_one_place}, {"ms", result}};
   }
@@ -372,41 +409,20 @@ class FigureData {
 
 void figure_4_4(Experiment& experiment) {
   const FrameRatePlan plan = plan_of(experiment);
-  const auto only = [&plan](std::int64_t scenario) {
-    FrameRatePlan one = plan;
-    one.scenarios = {scenario};
-    return one;
-  };
   for (const std::int64_t scenario : plan.scenarios) {
-    // The text's trees, and trees of larger leaves, up to one leaf.
-    FrameRatePlan counted = only(scenario);
-    for (const std::int64_t more : experiment.values.integers("max_prims_beyond")) counted.max_prims.push_back(more);
-    counted.max_prims.push_back(kUnlimited);
-    experiment.add(step_of("counts", scenario), 0.5, 8, count_rays, counted, 1, kQuickStride);
-  }
-  for (const std::int64_t scenario : plan.scenarios)
-    experiment.add(step_of("seeds", scenario), 0.3, 20, count_seeds, only(scenario));
-  for (const Json& variation : variations(experiment)) {
-    FrameRatePlan changed = plan;
-    changed.width_px = variation.value("width_px", plan.width_px);
-    changed.height_px = variation.value("height_px", plan.height_px);
-    changed.fov_deg = variation.value("fov_deg", plan.fov_deg);
-    changed.radius = variation.value("radius", plan.radius);
-    experiment.add(variation["key"], 0.2, 2, count_rays, changed, kOtherStride, kQuickOtherStride);
+    experiment.add(step_of("counts", scenario), 0.5, 8, count_scenario, scenario);
+    for (const Json& variation : variations(experiment))
+      experiment.add(step_of(variation["key"], scenario), 0.1, 3, count_variation, variation, scenario);
   }
   experiment.add("balance", 0.3, 0.3, [](const Experiment& of) {
     return measure_reasons(of, of.values.integers("spheres_list"), {of.values.integer("winner.max_prims")},
                            of.settings.quick ? 10 : 100);
   });
-  double all = 0;
-  for (const std::int64_t spheres : plan.spheres) all += static_cast<double>(spheres) + 100;
   for (const TimedProgram& program : timed_programs())
     for (const std::int64_t scenario : plan.scenarios)
-      for (const std::int64_t spheres : plan.spheres) {
-        const double weight =
-            program.weight * (static_cast<double>(spheres) + 100) / all / static_cast<double>(plan.scenarios.size());
-        experiment.add(step_of(program, {scenario, spheres}), weight / 20, weight, program.measure, scenario, spheres);
-      }
+      for (const std::int64_t spheres : plan.spheres)
+        experiment.add(step_of(program, {scenario, spheres}), program.weight / 20, program.weight, program.measure,
+                       scenario, spheres);
   experiment.add("brute_force", 1, 1, measure_brute_force);
   experiment.make_data = [](const Experiment& measured) { return FigureData(measured).all(); };
 }

@@ -104,9 +104,9 @@ FrameRatePlan plan_of(const Experiment& experiment, int divisor, int quick_divis
 }
 
 const std::vector<TimedProgram>& timed_programs() {
-  static const std::vector<TimedProgram> kPrograms{{"program", "thesis program", measure_program, 30},
-                                                   {"reference", "reference engine", measure_reference, 120},
-                                                   {"shader", "shader", measure_shader, 60}};
+  static const std::vector<TimedProgram> kPrograms{{"program", "thesis program", measure_program, 3},
+                                                   {"reference", "reference engine", measure_reference, 13},
+                                                   {"shader", "shader", measure_shader, 7}};
   return kPrograms;
 }
 

@@ -81,9 +81,15 @@ Json run_from(const Json& document, const Values& values) {
               {"gains", std::move(by_scenario)},
               {"drift", drift_of(saved->rates)}};
   // Costs of the page's steps; runs of earlier versions lack them.
-  if (document.contains("costs"))
+  if (document.contains("costs")) {
+    Json& costs = run["costs"];
     for (const char* const name : {"inner_per_test", "inner_per_test_error", "leaf_per_inner", "leaf_per_inner_error"})
-      run["costs"][name] = document["costs"].at(name).get<double>();
+      costs[name] = document["costs"].at(name).get<double>();
+    const CostWords words = cost_words(costs["inner_per_test"], costs["inner_per_test_error"], costs["leaf_per_inner"],
+                                       costs["leaf_per_inner_error"]);
+    costs["inner_words"] = words.inner;
+    costs["leaf_words"] = words.leaf;
+  }
   return run;
 }
 

@@ -32,14 +32,10 @@ std::optional<Image> draw(const Experiment& experiment, const Scene& scene, cons
 Json write_picture(const Experiment& experiment, const std::string& name, const Image& image) {
   const PngText text{{"Software", "bihive " + std::string(version())}};
   value_or_fail(write_png(experiment.folder + "/" + name, image, text));
-  std::set<std::array<std::uint8_t, 3>> colours;
-  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3)
-    colours.insert({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
   return {{"name", name},
           {"width_px", image.width},
           {"height_px", image.height},
-          {"picture_hash", fmt::format("{:016x}", picture_hash(image))},
-          {"colours", colours.size()}};
+          {"picture_hash", fmt::format("{:016x}", picture_hash(image))}};
 }
 
 std::int64_t coinciding_spheres(const SphereSet& spheres) {

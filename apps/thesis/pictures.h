@@ -17,8 +17,7 @@ RenderSettings picture_settings(const Experiment& experiment, const Scene& scene
 std::optional<Image> draw(const Experiment& experiment, const Scene& scene, const Tracer& tracer,
                           const RenderSettings& settings, std::int64_t* rays = nullptr);
 
-/// Writes the picture into the experiment's folder. Returns data for the step's result: name, size, hash, and number of
-/// colours.
+/// Writes the picture into the experiment's folder. Returns data for the step's result: name, size and hash.
 Json write_picture(const Experiment& experiment, const std::string& name, const Image& image);
 
 /// Calls of(pixel, ray) with the ray through the centre of each pixel, row by row from the top.

@@ -2,13 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <set>
 
+#include "bihive/base/json_text.h"
+#include "bihive/scene/scene_file.h"
 #include "pictures.h"
 
 namespace bihive::thesis {
@@ -20,34 +21,27 @@ constexpr int kRegular = 8;
 // The error of a grid's last sphere after adding up steps in binary32, at most.
 constexpr double kRounding = 4e-4;
 
+// The angle between the camera's axis and the far side of a sphere, along x or y, in radians. The camera looks along
+// -z.
+double angle_of(const Scene& scene, std::int64_t id, int axis) {
+  const Vec3d to = scene.spheres.centre(id) - scene.camera.eye;
+  return std::atan2(std::abs(to[axis]), -to.z) + std::asin(scene.spheres.radius(id) / std::hypot(to[axis], to.z));
+}
+
 // The number of spheres that lie wholly inside the four sides of the picture.
 std::int64_t spheres_in_view(const Scene& scene, const RenderSettings& picture) {
-  const int width = picture.width_px, height = picture.height_px;
-  const PixelRays rays(scene.camera, width, height);
-  std::array<Vec3d, 4> corners;
-  for (std::size_t i = 0; i < 4; ++i)
-    corners[i] = to_double(rays.at(i == 1 || i == 2 ? width : 0, i >= 2 ? height : 0).direction);
+  const Vec3d corner = to_double(PixelRays(scene.camera, picture.width_px, picture.height_px).at(0, 0).direction);
   std::int64_t inside = 0;
-  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
-    bool wholly = true;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3d inward = normalized(cross(corners[i], corners[(i + 1) % 4]));
-      wholly = wholly && dot(scene.spheres.centre(id) - scene.camera.eye, inward) >= scene.spheres.radius(id);
-    }
-    inside += wholly ? 1 : 0;
-  }
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id)
+    inside += angle_of(scene, id, 0) <= std::atan2(std::abs(corner.x), -corner.z) &&
+              angle_of(scene, id, 1) <= std::atan2(std::abs(corner.y), -corner.z);
   return inside;
 }
 
-// The least angle along the picture's shorter side, in degrees, with which every sphere is wholly in view. The camera
-// looks along -z.
+// The least angle along the picture's shorter side, in degrees, with which every sphere is wholly in view.
 double needed_fov_deg(const Scene& scene) {
   double most = 0;
-  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
-    const Vec3d to = scene.spheres.centre(id) - scene.camera.eye;
-    const double distance = std::hypot(to.y, to.z);
-    most = std::max(most, std::atan2(std::abs(to.y), -to.z) + std::asin(scene.spheres.radius(id) / distance));
-  }
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) most = std::max(most, angle_of(scene, id, 1));
   return 2 * most * 180 / 3.14159265358979323846;
 }
 
@@ -87,22 +81,13 @@ double spacing_difference(const SphereSet& spheres, const Ids& ids) {
   return most - least;
 }
 
-Json material_facts(const Material& material) {
-  return {{"colour", numbers_of(material.colour)}, {"ambient", material.ambient},
-          {"diffuse", material.diffuse},           {"reflective", material.reflective},
-          {"specular", material.specular},         {"power", material.power},
-          {"transmissive", material.transmissive}, {"refraction_index", material.refraction_index}};
-}
-
+// The scene as a scene file has it, without its spheres; and what follows from it.
 Json scene_facts(const Scene& scene) {
-  const PointLight& light = scene.lights.at(0);
-  const Plane& plane = scene.plane->plane;
-  return {{"camera", {{"eye", numbers_of(scene.camera.eye)}, {"needed_fov_deg", needed_fov_deg(scene)}}},
-          {"lights", scene.lights.size()},
-          {"light", {{"position", numbers_of(light.position)}, {"colour", numbers_of(light.colour)}}},
-          {"plane", {{"point", numbers_of(plane.point)}, {"normal", numbers_of(plane.normal)}}},
-          {"red", material_facts(material_of(scene, 0))},
-          {"transparent", material_facts(material_of(scene, 1))}};
+  Json facts = value_or_fail(json_from_text<Json>(scene_to_json(scene)));
+  facts.erase("spheres");
+  facts["light_count"] = scene.lights.size();
+  facts["camera"]["needed_fov_deg"] = needed_fov_deg(scene);
+  return facts;
 }
 
 Json draw_scenario(const Experiment& experiment, std::int64_t number) {

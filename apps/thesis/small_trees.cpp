@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <memory>
+#include <optional>
 
-#include "bihive/base/parallel.h"
 #include "bihive/bih/observer.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/statistics.h"
 #include "bihive/bih/traversal.h"
-#include "bihive/image/image_diff.h"
 #include "pictures.h"
 
 namespace bihive::thesis {
@@ -38,110 +35,79 @@ Scene scene_of(const Experiment& experiment) {
   return values.scene(values.integer("scenario"), values.integer("spheres"), experiment.settings.seed);
 }
 
-// A tree of the figure, the steps of each pixel's primary ray, row by row, and the picture of these.
-struct SmallTree {
-  std::unique_ptr<const Scene> scene;  // the tracer refers to its spheres
-  Tracer tracer;
-  std::vector<CountingObserver> rays;
-  Image picture;
-};
-
-// Green for gaps, as `bihive render --view traversal` draws it. Blue for inner nodes and leaves, each by its own step
-// in values.json and at most 1: there that view has one step for both. Nothing if cancelled.
-std::optional<SmallTree> draw_traversal(const Experiment& experiment, const std::string& letter) {
-  const Values& values = experiment.values;
-  auto made = std::make_unique<const Scene>(scene_of(experiment));
-  const Scene& scene = *made;
-  Tracer tracer = value_or_fail(
-      Tracer::build(scene.spheres, Engine::reference,
-                    BuildParameters{values.limit(letter + ".max_prims"), values.limit(letter + ".max_depth")}));
-  const RenderSettings settings = picture_settings(experiment, scene, View::traversal);
-  std::optional<Image> picture = draw(experiment, scene, tracer, settings);
-  if (!picture) return std::nullopt;
-  const double of_inner = values.number("visit.inner.blue"), of_leaf = values.number("visit.leaf.blue");
-  std::vector<CountingObserver> rays(picture->rgb.size() / 3);
-  for_each_ray(scene.camera, settings.width_px, settings.height_px, [&](std::size_t pixel, const Ray& ray) {
-    CountingObserver& seen = rays[pixel];
-    traverse<false>(*tracer.tree(), scene.spheres, ScaledRay(ray, scene.spheres), seen);
-    const double blue =
-        of_inner * static_cast<double>(seen.node_visits) + of_leaf * static_cast<double>(seen.leaf_visits);
-    picture->rgb[3 * pixel + 2] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(blue, 0.0, 1.0)));
-  });
-  return SmallTree{std::move(made), std::move(tracer), std::move(rays), std::move(*picture)};
+// The nodes of a tree and the order of its spheres: of equal trees, equal lists.
+Json nodes_of(const Tree& tree) {
+  Json nodes = Json::array();
+  for (const Node& node : tree.nodes)
+    nodes.push_back(fmt::format("{} {} {} {} {} {}", static_cast<int>(node.kind), static_cast<int>(node.split_axis),
+                                node.left_clip, node.right_clip, node.first, node.sphere_count));
+  for (const std::int64_t id : tree.sphere_ids) nodes.push_back(std::to_string(id));
+  return nodes;
 }
 
-// Counts colours in the picture, as shares of its pixels, and returns its smallest green above 0, which is that of one
-// gap.
-Json seen_in(const SmallTree& tree, double& green_step) {
+// The picture, and what is seen in it: colours as shares of its pixels. Green for gaps, as `bihive render --view
+// traversal` draws it. Blue for inner nodes and leaves, each by its own step in values.json and at most 1: there that
+// view has one step for both. "green_step": the smallest green above 0, which is that of one gap.
+Json seen_in(const Experiment& experiment, const Scene& scene, const Tree& tree, Image& picture) {
+  const Values& values = experiment.values;
+  const double of_inner = values.number("visit.inner.blue"), of_leaf = values.number("visit.leaf.blue");
   std::int64_t green = 0, blue = 0, bright = 0, gaps = 0, visits = 0;
   int smallest = 0;
-  for (std::size_t i = 0; i < tree.rays.size(); ++i) {
-    const CountingObserver& ray = tree.rays[i];
-    const int g = tree.picture.rgb[3 * i + 1], b = tree.picture.rgb[3 * i + 2];
+  for_each_ray(scene.camera, picture.width, picture.height, [&](std::size_t pixel, const Ray& ray) {
+    CountingObserver seen;
+    traverse<false>(tree, scene.spheres, ScaledRay(ray, scene.spheres), seen);
+    const double steps =
+        of_inner * static_cast<double>(seen.node_visits) + of_leaf * static_cast<double>(seen.leaf_visits);
+    const int g = picture.rgb[3 * pixel + 1], b = static_cast<int>(std::lround(255 * std::clamp(steps, 0.0, 1.0)));
+    picture.rgb[3 * pixel + 2] = static_cast<std::uint8_t>(b);
     green += g > b;
     blue += b > 0 && b >= g;
-    bright += ray.empty_gaps >= 2;
-    gaps += ray.empty_gaps;
-    visits += ray.node_visits + ray.leaf_visits;
+    bright += seen.empty_gaps >= 2;
+    gaps += seen.empty_gaps;
+    visits += seen.node_visits + seen.leaf_visits;
     if (g > 0 && (smallest == 0 || g < smallest)) smallest = g;
-  }
-  green_step = smallest / 255.0;
-  const auto per_ray = [&](std::int64_t count) {
-    return static_cast<double>(count) / static_cast<double>(tree.rays.size());
+  });
+  const auto per_ray = [all = static_cast<double>(picture.rgb.size()) / 3](std::int64_t count) {
+    return static_cast<double>(count) / all;
   };
   return {{"green_percent", 100 * per_ray(green)},
           {"blue_percent", 100 * per_ray(blue)},
           {"several_gaps_percent", 100 * per_ray(bright)},
           {"gaps_per_ray", per_ray(gaps)},
-          {"nodes_per_ray", per_ray(visits)}};
+          {"nodes_per_ray", per_ray(visits)},
+          {"green_step", smallest / 255.0}};
 }
 
 Json draw_tree(const Experiment& experiment, const std::string& letter) {
-  const std::optional<SmallTree> small = draw_traversal(experiment, letter);
-  if (!small) return {};
+  const Values& values = experiment.values;
+  const std::int64_t max_depth = values.limit(letter + ".max_depth"), max_prims = values.limit(letter + ".max_prims");
+  const Scene scene = scene_of(experiment);
+  const Tracer tracer =
+      value_or_fail(Tracer::build(scene.spheres, Engine::reference, BuildParameters{max_prims, max_depth}));
+  std::optional<Image> traversal =
+      draw(experiment, scene, tracer, picture_settings(experiment, scene, View::traversal));
   // The drawing of the tree has two halves, so it is twice as large in a quick run.
-  const std::optional<Image> tree =
-      draw(experiment, *small->scene, small->tracer, picture_settings(experiment, *small->scene, View::tree, 2));
-  if (!tree) return {};
-  const auto limit_text = [&](const std::string& name) {
-    const std::int64_t limit = experiment.values.limit(letter + name);
-    return limit == kUnlimited ? std::string("∞") : std::to_string(limit);
-  };
-  double green_step = 0;
-  const Json seen = seen_in(*small, green_step);
+  const std::optional<Image> tree = draw(experiment, scene, tracer, picture_settings(experiment, scene, View::tree, 2));
+  if (!traversal || !tree) return {};
+  const Json seen = seen_in(experiment, scene, *tracer.tree(), *traversal);
+  const auto limit_text = [](std::int64_t limit) { return limit == kUnlimited ? "∞" : std::to_string(limit); };
   return {{"letter", letter},
-          {"max_depth", limit_text(".max_depth")},
-          {"max_prims", limit_text(".max_prims")},
-          {"traversal", write_picture(experiment, letter + "-traversal.png", small->picture)},
+          {"max_depth", limit_text(max_depth)},
+          {"max_prims", limit_text(max_prims)},
+          {"traversal", write_picture(experiment, letter + "-traversal.png", *traversal)},
           {"tree_picture", write_picture(experiment, letter + "-tree.png", *tree)},
-          {"tree", tree_facts(*small->tracer.tree())},
-          {"green_step", green_step},
+          {"tree", tree_facts(*tracer.tree())},
+          {"nodes", nodes_of(*tracer.tree())},
           {"seen", seen}};
 }
 
-bool same_node(const Node& a, const Node& b) {
-  return a.left_clip == b.left_clip && a.right_clip == b.right_clip && a.kind == b.kind &&
-         a.split_axis == b.split_axis && a.first == b.first && a.sphere_count == b.sphere_count;
-}
-
-// The number of different entries of two lists.
-template <class T, class Same>
-std::int64_t differences(const std::vector<T>& a, const std::vector<T>& b, const Same& same) {
-  std::int64_t count = 0;
-  for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
-    if (i >= a.size() || i >= b.size() || !same(a[i], b[i])) ++count;
-  return count;
-}
-
-// Compares two trees node by node and two pictures pixel by pixel.
-Json compare(const Experiment& experiment, const std::string& first, const std::string& second) {
-  const std::optional<SmallTree> one = draw_traversal(experiment, first), other = draw_traversal(experiment, second);
-  if (!one || !other) return {};
-  const Tree &a = *one->tracer.tree(), &b = *other->tracer.tree();
-  return {{"nodes", a.nodes.size()},
-          {"different_nodes",
-           differences(a.nodes, b.nodes, same_node) + differences(a.sphere_ids, b.sphere_ids, std::equal_to<>())},
-          {"different_pixels", difference_of(one->picture, other->picture).pixels}};
+// Compares two trees node by node, and their pictures.
+Json compare(const Json& one, const Json& other) {
+  const Json &a = one["nodes"], &b = other["nodes"];
+  std::size_t different = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) different += a[i] != b[i];
+  const bool same = one["traversal"]["picture_hash"] == other["traversal"]["picture_hash"];
+  return {{"different_nodes", different}, {"pictures", same ? "the same" : "different"}};
 }
 
 // The trees of (a) to (c) with the MAX_PRIMS that the text gives for them.
@@ -161,7 +127,7 @@ void add_colours(Json& data) {
   double smallest = 1, most = 0;
   std::vector<std::string> green, widest;
   for (const auto& [letter, tree] : data["trees"].items()) {
-    if (const double step = tree["green_step"]; step > 0) smallest = std::min(smallest, step);
+    if (const double step = tree["seen"]["green_step"]; step > 0) smallest = std::min(smallest, step);
     if (tree["seen"]["green_percent"] > 0) green.push_back(letter);
     const double gaps = tree["seen"]["gaps_per_ray"];
     if (gaps > most) widest.clear();
@@ -177,12 +143,18 @@ void add_colours(Json& data) {
 
 void figure_4_3(Experiment& experiment) {
   for (const std::string& letter : kLetters) experiment.add(letter, 0.1, 0.7, draw_tree, letter);
-  for (const auto& [first, second] : kIdentical)
-    experiment.add(first + "_and_" + second, 0.1, 0.7, compare, first, second);
   experiment.add("as_stated", 0.01, 0.01, build_as_stated);
   experiment.make_data = [](const Experiment& drawn) {
     Json data = Json::object();
-    for (const auto& [name, result] : drawn.finished()) (name.size() == 1 ? data["trees"][name] : data[name]) = *result;
+    for (const auto& [name, result] : drawn.finished()) {
+      Json& one = name.size() == 1 ? data["trees"][name] : data[name];
+      one = *result;
+      one.erase("nodes");
+    }
+    for (const auto& [first, second] : kIdentical) {
+      const Json *const one = drawn.result(first), *const other = drawn.result(second);
+      if (one != nullptr && other != nullptr) data[first + "_and_" + second] = compare(*one, *other);
+    }
     if (data.contains("trees") && data["trees"].size() == kLetters.size()) add_colours(data);
     return data;
   };

@@ -207,13 +207,16 @@ class Report(ProgramTest):
                     run["configurations"].append({"scenario": scenario, "spheres": spheres, "max_prims": max_prims, "fps": 1000 / ms, "frame_ms": [ms, ms * 1.1]})
         self.write("one.json", json.dumps(run))
         run["device"], run["configurations"] = "another", run["configurations"][:3]
-        self.write("two.json", json.dumps({**run, "complete": False}))
+        costs = {"inner_per_test": 1.3, "inner_per_test_error": 0.1, "leaf_per_inner": 0, "leaf_per_inner_error": 0}
+        self.write("two.json", json.dumps({**run, "complete": False, "costs": costs}))
         self.succeed("thesis", "figure-4.2", "--quick", "--out", "out", "--device", "one.json", "--device", "two.json")
         devices, report = self.results("out")["devices"], self.report("out")
         self.assertEqual([each["device"] for each in devices], ["a <phone>", "another"])
         self.assertEqual([each["configurations"] for each in devices], [9, 1])
         self.assertAlmostEqual(devices[0]["drift"], 1.1)
         self.assertAlmostEqual(devices[0]["best_fps"], 1000 / 105)
+        self.assertEqual((devices[1]["costs"]["inner_words"], devices[1]["costs"]["leaf_words"]), ("1.30 ± 0.10", "0 (at its bound)"))
+        self.assertIn("0 (at its bound)", report)
         self.assertIn("a &lt;phone&gt;", report)
         self.assertIn("The text states of its iPhone 5s", " ".join(report.split()))
         self.assertIn("Scenario 1: 900 to 900 %, mean 900", report)

@@ -116,6 +116,16 @@ TEST(CostModel, NoCostIsNegative) {
   EXPECT_EQ(fitted.leaf_ns, 0);
 }
 
+TEST(CostModel, WordsSayWhatAFitDoesNotDetermine) {
+  EXPECT_EQ(cost_words(3.336, 0.1, 0.25, 0.5).inner, "3.34 ± 0.10");
+  EXPECT_EQ(cost_words(3.336, 0.1, 0.25, 0.5).leaf, "0.25 ± 0.50");
+  EXPECT_EQ(cost_words(3.336, 0.1, 0, 0).leaf, "0 (at its bound)");
+  EXPECT_EQ(cost_words(0, 0, 0, 0).inner, "0 (at its bound)");
+  EXPECT_EQ(cost_words(0, 0, 0, 0).leaf, "not determined by these frames");
+  EXPECT_EQ(cost_words(3.336, 0.1, 2, 2.5).leaf, "not determined by these frames");
+  EXPECT_EQ(cost_words(3.336, 0.1, 2, 1.5).leaf, "2.00 ± 1.50");
+}
+
 TEST(CostModel, TooFewFramesHaveNoFit) {
   const FigureWork work{{{1, 64}, {{8, {5, 2, 9}}}}};
   const EngineTimes times{{{1, 64}, {{100}, {{8, {20}}}}}};

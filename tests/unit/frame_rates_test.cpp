@@ -67,6 +67,48 @@ TEST(FrameRatePlan, RefusesNumbersThatAreTooLarge) {
   }
 }
 
+// The blocks of 8 x 4 rays in lockstep, and the rays of the whole picture alone.
+TEST(CountedFigure, CountsRaysAloneAndInLockstep) {
+  FrameRatePlan plan = small_plan();
+  plan.width_px = 64;
+  plan.height_px = 36;
+  const auto counted = [&](Counting counting) { return counted_figure(plan, 1, nullptr, counting).value(); };
+  const FigureWork alone = counted(Counting::each_ray), all = counted(Counting::without_culling);
+  const FigureWork by_node = counted(Counting::lockstep_by_node), by_leaf = counted(Counting::lockstep_by_leaf);
+  for (const auto& [configuration, trees] : alone)
+    for (const auto& [max_prims, one] : trees) {
+      const RayWork& every = all.at(configuration).at(max_prims);
+      EXPECT_GE(every.inner, one.inner);
+      EXPECT_GT(every.tests, one.tests);
+      for (const FigureWork* const lockstep : {&by_node, &by_leaf}) {
+        const RayWork& block = lockstep->at(configuration).at(max_prims);
+        EXPECT_GE(block.inner, one.inner);
+        EXPECT_GE(block.leaves, one.leaves);
+        EXPECT_GE(block.tests, one.tests);
+        EXPECT_LT(block.inner, 32 * one.inner);
+      }
+    }
+  EXPECT_NE(by_node.at({2, 64}).at(1).inner, by_leaf.at({2, 64}).at(1).inner);
+}
+
+// One ray for 8 x 4 pixels is a block of one kind: rays that start and go alike have the work of one.
+TEST(CountedFigure, EqualRaysInLockstepHaveTheWorkOfOne) {
+  FrameRatePlan plan = small_plan();
+  plan.width_px = 8;
+  plan.height_px = 4;
+  plan.fov_deg = 1e-9;
+  const FigureWork alone = counted_figure(plan, 1).value();
+  for (const Counting counting : {Counting::lockstep_by_node, Counting::lockstep_by_leaf}) {
+    const FigureWork block = counted_figure(plan, 1, nullptr, counting).value();
+    for (const auto& [configuration, trees] : alone)
+      for (const auto& [max_prims, one] : trees) {
+        EXPECT_EQ(block.at(configuration).at(max_prims).inner, one.inner);
+        EXPECT_EQ(block.at(configuration).at(max_prims).leaves, one.leaves);
+        EXPECT_EQ(block.at(configuration).at(max_prims).tests, one.tests);
+      }
+  }
+}
+
 TEST(FrameRateRun, TakesTurnsAndCountsAllButTheFirstRound) {
   FrameRateRun run(small_plan(), {});
   int steps = 0;

@@ -82,6 +82,19 @@ TEST(Scenarios, refuse_what_does_not_fit) {
   EXPECT_FALSE(scenario_spheres(Scenario::mixed, {8, 4, 1}));
   EXPECT_FALSE(scenario_spheres(Scenario::mixed, {8, 0, 1}));
   EXPECT_FALSE(scenario_spheres(Scenario::mixed, {8, std::nanf(""), 1}));
+  EXPECT_TRUE(scenario_spheres(Scenario::mixed, {8, 4, 1, 10}));
+  EXPECT_EQ(scenario_spheres(Scenario::mixed, {8, 4, 1, 7}).error().hint,
+            "it must be above 0 and below 3.5 in this scenario");
+  for (const float side : {0.0F, 20.5F, std::nanf("")})
+    EXPECT_FALSE(scenario_spheres(Scenario::corners, {8, 1, 1, side}));
+}
+
+TEST(Scenarios, small_cubes_of_another_side_hold_the_same_clusters) {
+  const SphereSet usual = scenario_spheres(Scenario::corners, {64, 1, 1}).value();
+  const SphereSet larger = scenario_spheres(Scenario::corners, {64, 1, 1, 14}).value();
+  for (std::int64_t id = 0; id < 64; ++id)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(19 - std::abs(larger.centre(id)[axis]), 2 * (19 - std::abs(usual.centre(id)[axis])), 1e-4);
 }
 
 TEST(Scenarios, a_radius_beyond_binary32_is_refused) {

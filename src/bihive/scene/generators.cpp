@@ -6,17 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/readable.h"
 #include "bihive/math/rng.h"
 
 namespace bihive {
 namespace {
 
-// The cube that encloses everything, and the small cubes in its corners. The thesis does not state the side of the
-// small cubes; this side gives the statistics of its Table 4.2.
+// The cube that encloses everything.
 constexpr float kCubeLow = -20;
 constexpr float kCubeHigh = 20;
 constexpr float kCubeSide = 40;
-constexpr float kCornerSide = 8;
 
 // Centres, in the order in which they are made.
 struct Centres {
@@ -51,8 +50,8 @@ void add_grid(Centres& centres, std::int64_t count, float radius) {
 }
 
 // Uniform in a small cube at each corner, corner by corner; x is the lowest bit of a corner's number.
-void add_corners(Centres& centres, std::int64_t count, float radius, SplitMix64& random) {
-  const float room = kCornerSide - 2 * radius;
+void add_corners(Centres& centres, std::int64_t count, float radius, float side, SplitMix64& random) {
+  const float room = side - 2 * radius;
   for (int corner = 0; corner < 8; ++corner) {
     const std::int64_t here = count / 8 + (corner < count % 8 ? 1 : 0);
     for (std::int64_t i = 0; i < here; ++i) {
@@ -87,17 +86,18 @@ float scenario_radius(double radius) {
 Result<SphereSet> scenario_spheres(Scenario scenario, const ScenarioParameters& parameters) {
   // Check the ranges: spheres must fit the cubes in which they are placed.
   const bool corners = scenario != Scenario::grid;
-  const float largest = corners ? kCornerSide / 2 : kCubeSide / 2;
+  const float largest = corners ? parameters.corner_side / 2 : kCubeSide / 2;
+  if (!(parameters.corner_side > 0 && parameters.corner_side <= kCubeSide / 2))
+    return out_of_range("the side of the small cubes", "above 0 and at most 20");
   if (parameters.count < 1) return out_of_range("the number of spheres", "at least 1");
   if (!(parameters.radius > 0 && parameters.radius < largest))
-    return out_of_range("the radius",
-                        "above 0 and below " + std::to_string(static_cast<int>(largest)) + " in this scenario");
+    return out_of_range("the radius", "above 0 and below " + readable_number(largest) + " in this scenario");
 
   Centres centres;
   SplitMix64 random(parameters.seed);
   const std::int64_t n = parameters.count;
   const std::int64_t corner_count = scenario == Scenario::grid ? 0 : scenario == Scenario::corners ? n : n / 2;
-  add_corners(centres, corner_count, parameters.radius, random);
+  add_corners(centres, corner_count, parameters.radius, parameters.corner_side, random);
   add_grid(centres, n - corner_count, parameters.radius);
   const std::vector<float> radii(static_cast<std::size_t>(n), parameters.radius);
   return SphereSet::from_world(centres.x, centres.y, centres.z, radii);

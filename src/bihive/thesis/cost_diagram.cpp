@@ -11,14 +11,13 @@
 namespace bihive {
 namespace {
 
-// Units of the view box.
-constexpr double kDiagramWidth = 480, kLeft = 56, kRight = 12, kTop = 30, kPlotHeight = 230, kLine = 17;
-constexpr double kPlotWidth = kDiagramWidth - kLeft - kRight;
+// Units of the view box. The plot lies where costs.svg draws its axes.
+constexpr double kLeft = 56, kRight = 468, kTop = 30, kPlotHeight = 230, kLine = 17;
+constexpr double kPlotWidth = kRight - kLeft;
 constexpr double kCharacter = 6.6;  // mean width of a character of 12 units
 constexpr double kMarker = 4.2;
-constexpr const char* kWinsLabel = "won:";
 
-// Axes: an inner node in sphere tests, a leaf in inner nodes.
+// Axes: an inner node in sphere tests, a leaf in inner nodes. costs.svg has their ticks.
 constexpr double kLeastInner = 0.25, kMostInner = 16, kMostLeaf = 1;
 constexpr int kColumns = 120, kRows = 51;
 
@@ -36,16 +35,15 @@ class Diagram {
   explicit Diagram(const CostDiagram& data) : data_(data) {}
 
   std::string svg() {
-    cells();
-    outline("pattern", [this](std::size_t at) { return bool(data_.pattern[at]); });
-    if (!data_.share.empty()) outline("share", [this](std::size_t at) { return data_.share[at] >= 0.5; });
-    axes();
-    for (const CostPoint& point : data_.points) mark(point);
-    legend();
-    return fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bihive-costs\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
-        "aria-label=\"{}\"><style>{}</style>{}</svg>\n",
-        kDiagramWidth, height_, escape_html(data_.title), cost_diagram_style(), body_);
+    std::string regions = cells() + outline("pattern", [this](std::size_t at) { return bool(data_.pattern[at]); });
+    if (!data_.share.empty()) regions += outline("share", [this](std::size_t at) { return data_.share[at] >= 0.5; });
+    std::string points;
+    for (const CostPoint& point : data_.points) points += mark(point);
+    return fmt::format(fmt::runtime(cost_diagram_template()), fmt::arg("title", escape_html(data_.title)),
+                       fmt::arg("style", cost_diagram_style()), fmt::arg("regions", regions),
+                       fmt::arg("points", points), fmt::arg("colours", colours()),
+                       fmt::arg("pattern_label", escape_html(data_.pattern_label)),
+                       fmt::arg("share", data_.share.empty() ? "" : share_legend()));
   }
 
  private:
@@ -64,27 +62,23 @@ class Diagram {
   double x_at(std::size_t column) const { return kLeft + static_cast<double>(column) * cell_width_; }
   double y_at(std::size_t row) const { return kTop + kPlotHeight - static_cast<double>(row) * cell_height_; }
 
-  void text(double x, double y, const std::string& words, const char* anchor = "start", const char* style = "") {
-    body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor, style,
-                         escape_html(words));
-  }
-
   // One rectangle for each run of equal cells of a row.
-  void cells() {
-    text(kLeft, 18, data_.title, "start", " class=\"strong\"");
+  std::string cells() const {
+    std::string all;
     for (std::size_t row = 0; row < rows(); ++row)
       for (std::size_t begin = 0, end = 0; begin < columns(); begin = end) {
         const int wins = data_.wins[row * columns() + begin];
         for (end = begin; end < columns() && data_.wins[row * columns() + end] == wins; ++end) {
         }
-        body_ += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>",
-                             x_at(begin), y_at(row + 1), static_cast<double>(end - begin) * cell_width_ + 0.2,
-                             cell_height_ + 0.2, colour_of(wins, data_.most_wins));
+        all += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>",
+                           x_at(begin), y_at(row + 1), static_cast<double>(end - begin) * cell_width_ + 0.2,
+                           cell_height_ + 0.2, colour_of(wins, data_.most_wins));
       }
+    return all;
   }
 
   // The edges between cells of the region and others.
-  void outline(const char* style, const std::function<bool(std::size_t)>& belongs) {
+  std::string outline(const char* style, const std::function<bool(std::size_t)>& belongs) const {
     std::string path;
     const auto at = [&](std::size_t row, std::size_t column) {
       return row < rows() && column < columns() && belongs(row * columns() + column);
@@ -97,31 +91,11 @@ class Diagram {
         if (row > 0 ? at(row - 1, column) != here : here)
           path += fmt::format("M{:.2f} {:.2f}H{:.2f}", x_at(column), y_at(row), x_at(column + 1));
       }
-    if (!path.empty()) body_ += fmt::format("<path class=\"{}\" d=\"{}\"/>", style, path);
-  }
-
-  void axes() {
-    const double bottom = kTop + kPlotHeight;
-    body_ += fmt::format("<rect class=\"axis\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>", kLeft, kTop, kPlotWidth,
-                         kPlotHeight);
-    for (double inner = 1.0 / 64; inner <= data_.inner.back() * 1.001; inner *= 2) {
-      if (inner < data_.inner.front() * 0.999) continue;
-      body_ += fmt::format("<path class=\"axis\" d=\"M{0:.1f} {1}v4\"/>", x_of(inner), bottom);
-      text(x_of(inner), bottom + kLine, inner < 1 ? fmt::format("1/{:.0f}", 1 / inner) : fmt::format("{:.0f}", inner),
-           "middle");
-    }
-    for (int i = 0; i * 0.25 <= data_.leaf.back() * 1.001; ++i) {
-      const double y = y_of(i * 0.25);
-      body_ += fmt::format("<path class=\"axis\" d=\"M{} {:.1f}h-4\"/>", kLeft, y);
-      text(kLeft - 7, y + 4, fmt::format("{:g}", i * 0.25), "end");
-    }
-    text(kLeft + kPlotWidth / 2, bottom + 2 * kLine, "an inner node costs, in sphere tests", "middle");
-    body_ += fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                         kTop + kPlotHeight / 2, "a leaf costs, in inner nodes");
+    return path.empty() ? "" : fmt::format("<path class=\"{}\" d=\"{}\"/>", style, path);
   }
 
   // Drawn at the edge, with its numbers, if it lies outside.
-  void mark(const CostPoint& point) {
+  std::string mark(const CostPoint& point) {
     const auto x_within = [this](double inner) {
       return x_of(std::clamp(inner, data_.inner.front(), data_.inner.back()));
     };
@@ -130,18 +104,17 @@ class Diagram {
     const double leaf = point.fitted.costs().leaf, leaf_error = point.fitted.leaf_error;
     const double x = x_within(inner), y = y_within(leaf);
     const bool outside = x != x_of(inner) || y != y_of(leaf);
+    std::string drawn;
     if (!outside)
-      body_ += fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>",
-                           x_within(inner - inner_error), y, x_within(inner + inner_error), x,
-                           y_within(leaf - leaf_error), y_within(leaf + leaf_error));
-    const std::string numbers = fmt::format("{:.2f}, {:.2f}", inner, leaf);
-    body_ += fmt::format("<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {}</title></circle>",
-                         x, y, kMarker, escape_html(point.name), numbers);
+      drawn = fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>",
+                          x_within(inner - inner_error), y, x_within(inner + inner_error), x,
+                          y_within(leaf - leaf_error), y_within(leaf + leaf_error));
 
     // Place its name below names already there, or above them near the axis.
+    const std::string numbers = fmt::format("{:.2f}, {:.2f}", inner, leaf);
     const std::string name = outside ? point.name + " (" + numbers + ")" : point.name;
     const double width = kCharacter * static_cast<double>(name.size());
-    const bool to_the_left = x + 8 + width > kDiagramWidth - kRight;
+    const bool to_the_left = x + 8 + width > kRight;
     const double left = to_the_left ? x - 8 - width : x + 8;
     double base = std::max(y - 6, kTop + 12);
     const double step = base + kLine > kTop + kPlotHeight ? -kLine : kLine;
@@ -149,27 +122,28 @@ class Diagram {
       if (left < other.right && other.left < left + width && std::abs(base - other.base) < kLine)
         base = other.base + step;
     names_.push_back({left, left + width, base});
-    text(to_the_left ? x - 8 : x + 8, base, name, to_the_left ? "end" : "start", " class=\"halo\"");
+    return drawn + fmt::format(
+                       "<circle class=\"point\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {}</title></circle>"
+                       "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"halo\">{}</text>",
+                       x, y, kMarker, escape_html(point.name), numbers, to_the_left ? x - 8 : x + 8, base,
+                       to_the_left ? "end" : "start", escape_html(name));
   }
 
-  void legend() {
-    double x = kLeft, y = kTop + kPlotHeight + 3.2 * kLine;
-    text(x, y, kWinsLabel);
-    x += kCharacter * static_cast<double>(std::string_view(kWinsLabel).size()) + 6;
-    for (int wins = 0; wins <= data_.most_wins; ++wins, x += 18) {
-      body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"18\" height=\"14\" fill=\"{}\"/>", x, y - 11,
-                           colour_of(wins, data_.most_wins));
-      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" class=\"{}\">{}</text>", x + 9, y,
-                           2 * wins > data_.most_wins ? "on-deep" : "on-pale", wins);
-    }
-    const auto entry = [&](const char* style, const std::string& words) {
-      y += kLine;
-      body_ += fmt::format("<path class=\"{}\" d=\"M{} {:.1f}h22\"/>", style, kLeft, y - 4);
-      text(kLeft + 28, y, words);
-    };
-    entry("pattern", data_.pattern_label);
-    if (!data_.share.empty()) entry("share", data_.share_label);
-    height_ = y + kLine / 2;
+  std::string share_legend() const {
+    return "<path class=\"share\" d=\"M56 344.4h22\"/><text x=\"84\" y=\"348.4\">" + escape_html(data_.share_label) +
+           "</text>\n";
+  }
+
+  // The legend's: a box for each number of wins.
+  std::string colours() const {
+    std::string all;
+    for (int wins = 0; wins <= data_.most_wins; ++wins)
+      all += fmt::format(
+          "<rect x=\"{0}\" y=\"303.4\" width=\"18\" height=\"14\" fill=\"{1}\"/>"
+          "<text x=\"{2}\" y=\"314.4\" text-anchor=\"middle\" class=\"{3}\">{4}</text>",
+          88 + 18 * wins, colour_of(wins, data_.most_wins), 97 + 18 * wins,
+          2 * wins > data_.most_wins ? "on-deep" : "on-pale", wins);
+    return all;
   }
 
   struct Name {
@@ -180,8 +154,6 @@ class Diagram {
   std::vector<Name> names_;
   const double cell_width_ = kPlotWidth / static_cast<double>(columns());
   const double cell_height_ = kPlotHeight / static_cast<double>(rows());
-  double height_ = 0;
-  std::string body_;
 };
 
 }  // namespace

@@ -36,6 +36,8 @@ CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, cons
 /// point with error bars for each engine.
 std::string cost_diagram_svg(const CostDiagram& diagram);
 std::string_view cost_diagram_style();  ///< its CSS: thesis/figure-4.4/costs.css
+std::string_view
+cost_diagram_template();  ///< its title, axes and legend, fields in braces: thesis/figure-4.4/costs.svg
 
 /// A line for each cell: inner_node_per_sphere_test,leaf_per_inner_node,wins,pattern,share_of_seeds.
 std::string cost_diagram_csv(const CostDiagram& diagram);

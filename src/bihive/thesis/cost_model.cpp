@@ -1,11 +1,14 @@
 #include "bihive/thesis/cost_model.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 #include <string>
 
+#include "bihive/math/least_squares.h"
 #include "bihive/math/quartiles.h"
 
 namespace bihive {
@@ -48,61 +51,9 @@ void append(std::vector<CostRange>& ranges, const CostRange& next) {
     ranges.push_back(next);
 }
 
-// Four unknowns: fixed part, inner node, leaf, sphere test.
-constexpr std::size_t kUnknowns = 4;
-using Row = std::array<double, kUnknowns>;
-using Matrix = std::array<Row, kUnknowns>;
-
-// Gauss-Jordan elimination; the matrix is symmetric and positive, so the diagonal serves as pivot. False if it is
-// singular.
-bool invert(Matrix a, Matrix& result) {
-  for (std::size_t pivot = 0; pivot < kUnknowns; ++pivot) {
-    if (!(std::abs(a[pivot][pivot]) > 1e-14)) return false;
-    const double scale = 1 / a[pivot][pivot];
-    for (std::size_t j = 0; j < kUnknowns; ++j) a[pivot][j] *= scale, result[pivot][j] *= scale;
-    for (std::size_t i = 0; i < kUnknowns; ++i) {
-      const double factor = i == pivot ? 0 : a[i][pivot];
-      for (std::size_t j = 0; j < kUnknowns; ++j) {
-        a[i][j] -= factor * a[pivot][j];
-        result[i][j] -= factor * result[pivot][j];
-      }
-    }
-  }
-  return true;
-}
-
-struct Solution {
-  Row cost{};
-  Matrix covariance{};  // without the variance of a frame
-  double residual = kInfinity;
-};
-
-// The best solution with these costs alone; the others are 0. Infinite residual: every solution has a negative cost.
-Solution solve(const std::vector<Row>& rows, const std::array<bool, kUnknowns>& used) {
-  Solution one;
-  Matrix normal{};
-  Row right{};
-  for (std::size_t i = 0; i < kUnknowns; ++i) {
-    one.covariance[i][i] = used[i] ? 1 : 0;
-    normal[i][i] = used[i] ? 0 : 1;
-    if (!used[i]) continue;
-    for (const Row& row : rows) {
-      right[i] += row[i];
-      for (std::size_t j = 0; j < kUnknowns; ++j) normal[i][j] += used[j] ? row[i] * row[j] : 0;
-    }
-  }
-  if (!invert(normal, one.covariance)) return {};
-  for (std::size_t i = 0; i < kUnknowns; ++i) {
-    for (std::size_t j = 0; j < kUnknowns; ++j) one.cost[i] += one.covariance[i][j] * right[j];
-    if (one.cost[i] < 0) return {};
-  }
-  one.residual = 0;
-  for (const Row& row : rows) {
-    double sum = -1;
-    for (std::size_t i = 0; i < kUnknowns; ++i) sum += row[i] * one.cost[i];
-    one.residual += sum * sum;
-  }
-  return one;
+// Whether the standard error of a ratio leaves anything to say.
+bool is_determined(double ratio, double error) {
+  return error <= std::max(1.0, ratio);
 }
 
 }  // namespace
@@ -180,9 +131,22 @@ std::vector<std::pair<const char*, double>> FittedCosts::named() const {
           {"leaf_per_inner_error", leaf_error}};
 }
 
+bool FittedCosts::determined() const {
+  return inner_ns > 0 && is_determined(costs().inner, inner_error) && is_determined(costs().leaf, leaf_error);
+}
+
+CostWords cost_words(double inner, double inner_error, double leaf, double leaf_error) {
+  const auto words = [](double ratio, double error) -> std::string {
+    if (ratio == 0) return "0 (at its bound)";
+    if (!is_determined(ratio, error)) return "not determined by these frames";
+    return fmt::format("{:.2f} ± {:.2f}", ratio, error);
+  };
+  return {words(inner, inner_error), inner == 0 ? "not determined by these frames" : words(leaf, leaf_error)};
+}
+
 FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, double ns_per_ms) {
   // A row for each frame: the work of a ray over its time, so that the sum of costs should be 1.
-  std::vector<Row> rows;
+  std::vector<std::array<double, 4>> rows;
   const auto add = [&](const RayWork& one, const std::vector<double>& rounds) {
     const double ns = median(rounds) * ns_per_ms;
     if (ns > 0) rows.push_back({1 / ns, one.inner / ns, one.leaves / ns, one.tests / ns});
@@ -194,21 +158,15 @@ FittedCosts fit_costs(const FigureWork& work, const EngineTimes& times, double n
     for (const auto& [max_prims, rounds] : measured.trees)
       if (counted->second.count(max_prims) > 0) add(counted->second.at(max_prims), rounds);
   }
-  if (rows.size() < 2 * kUnknowns) return {};
-
-  // The best solution without a negative cost: each set of costs that are not 0 is tried.
-  Solution best;
-  for (unsigned set = 1; set < (1U << kUnknowns); ++set) {
-    const Solution one = solve(rows, {(set & 1U) != 0, (set & 2U) != 0, (set & 4U) != 0, (set & 8U) != 0});
-    if (one.residual < best.residual) best = one;
-  }
-  const auto [fixed, inner, leaf, test] = best.cost;
+  if (rows.size() < 8) return {};
+  const LeastSquares<4> best = nonnegative_least_squares(rows);
+  const auto [fixed, inner, leaf, test] = best.unknowns;
   if (!(test > 0)) return {};
 
   // Errors of the two ratios, to first order.
-  const double variance = best.residual / static_cast<double>(rows.size() - kUnknowns);
+  const double variance = best.residual / static_cast<double>(rows.size() - 4);
   const auto ratio_error = [&](std::size_t above, std::size_t below) {
-    const double a = best.cost[above], b = best.cost[below];
+    const double a = best.unknowns[above], b = best.unknowns[below];
     if (!(b > 0)) return 0.0;
     const double relative = best.covariance[above][above] + a * a / (b * b) * best.covariance[below][below] -
                             2 * a / b * best.covariance[above][below];

@@ -20,6 +20,13 @@ struct RayWork {
   double inner = 0;   ///< inner nodes entered
   double leaves = 0;  ///< leaves entered
   double tests = 0;   ///< spheres tested
+
+  RayWork& operator+=(const RayWork& other) {
+    inner += other.inner;
+    leaves += other.leaves;
+    tests += other.tests;
+    return *this;
+  }
 };
 
 /// Costs of the steps of a ray.
@@ -84,6 +91,14 @@ struct WinsByCost {
 };
 WinsByCost wins_by_cost(const FigureWork& work, const WinPattern& pattern, double leaf);
 
+/// The two ratios of a fit with their standard errors, "3.34 ± 0.12". Or "0 (at its bound)" where only a negative cost
+/// would fit better; "not determined by these frames" where there is no cost to compare a leaf with, or where an error
+/// exceeds both 1 and the ratio.
+struct CostWords {
+  std::string inner, leaf;
+};
+CostWords cost_words(double inner, double inner_error, double leaf, double leaf_error);
+
 /// Costs fitted to measured frames by least squares of the relative error, none of them negative.
 struct FittedCosts {
   double fixed_ns = 0, inner_ns = 0, leaf_ns = 0, test_ns = 0;  ///< per ray and thread
@@ -92,9 +107,10 @@ struct FittedCosts {
   std::size_t frames = 0;
 
   StepCosts costs() const { return {inner_ns / test_ns, inner_ns > 0 ? leaf_ns / inner_ns : 0, fixed_ns / test_ns}; }
-  /// As JSON names them: "fixed_ns", "inner_ns", "leaf_ns", "test_ns", "inner_per_test", "leaf_per_inner", and both
-  /// with
-  /// "_error".
+  bool determined() const;  ///< both ratios are, in words()
+  CostWords words() const { return cost_words(costs().inner, inner_error, costs().leaf, leaf_error); }
+  /// As JSON names them: "fixed_ns", "inner_ns", "leaf_ns", "test_ns", "inner_per_test", "leaf_per_inner", and the last
+  /// two with "_error" (standard errors).
   std::vector<std::pair<const char*, double>> named() const;
 };
 /// `ns_per_ms`: nanoseconds per ray and thread in a millisecond of a frame's time. No fit (`frames` is 0) with fewer

@@ -4,12 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
-#include "bihive/bih/reference_builder.h"
-#include "bihive/bih/traversal.h"
 #include "bihive/render/renderer.h"
-#include "bihive/scene/camera.h"
 #include "bihive/scene/generators.h"
 
 namespace bihive {
@@ -38,29 +34,6 @@ double cost_of_round(const FrameRatePlan& plan) {
   double sum = 0;
   for (const std::int64_t spheres : plan.spheres) sum += cost_of_round(plan, spheres);
   return sum * static_cast<double>(plan.scenarios.size());
-}
-
-// Means per ray; meaningless after cancellation.
-RayWork counted_work(const Scene& scene, const Tree& tree, const FrameRatePlan& plan, int stride,
-                     const CancelToken* cancel) {
-  const PixelRays pixels(scene.camera, plan.width_px, plan.height_px);
-  const std::int64_t rows = (plan.height_px + stride - 1) / stride, columns = (plan.width_px + stride - 1) / stride;
-  std::vector<CountingObserver> of_rows(static_cast<std::size_t>(rows));
-  parallel_for(plan.threads, rows, [&](std::int64_t row) {
-    if (cancel != nullptr && cancel->cancelled()) return;
-    for (std::int64_t column = 0; column < columns; ++column) {
-      const Ray ray = pixels.at(static_cast<double>(column * stride) + 0.5, static_cast<double>(row * stride) + 0.5);
-      traverse<false>(tree, scene.spheres, ScaledRay(ray, scene.spheres), of_rows[static_cast<std::size_t>(row)]);
-    }
-  });
-  RayWork sum;
-  for (const CountingObserver& row : of_rows) {
-    sum.inner += static_cast<double>(row.node_visits);
-    sum.leaves += static_cast<double>(row.leaf_visits);
-    sum.tests += static_cast<double>(row.sphere_tests);
-  }
-  const double rays = static_cast<double>(rows * columns);
-  return {sum.inner / rays, sum.leaves / rays, sum.tests / rays};
 }
 
 }  // namespace
@@ -132,7 +105,8 @@ Result<FrameRatePlan> FrameRatePlan::within(double seconds, GlRenderer* gl) cons
 
 Result<Scene> FrameRatePlan::scene(std::int64_t scenario, std::int64_t count) const {
   if (scenario < 1 || scenario > 3) return Error{"there are the scenarios 1, 2 and 3", "", 0, 0, ""};
-  Result<Scene> made = scenario_scene(static_cast<Scenario>(scenario), {count, static_cast<float>(radius), seed});
+  Result<Scene> made = scenario_scene(static_cast<Scenario>(scenario),
+                                      {count, static_cast<float>(radius), seed, static_cast<float>(corner_side)});
   if (!made) return made.error();
   made->camera.fov_deg = fov_deg;
   return made;
@@ -149,20 +123,6 @@ RenderSettings FrameRatePlan::settings(const Scene& scene) const {
 
 int FrameRatePlan::configurations() const {
   return static_cast<int>(scenarios.size() * spheres.size() * (1 + max_prims.size()));
-}
-
-Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel) {
-  FigureWork work;
-  for (const std::int64_t scenario : plan.scenarios)
-    for (const std::int64_t spheres : plan.spheres) {
-      const Result<Scene> scene = plan.scene(scenario, spheres);
-      if (!scene) return scene.error();
-      for (const std::int64_t max_prims : plan.max_prims)
-        work[{scenario, spheres}][std::min(max_prims, spheres)] =
-            counted_work(*scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), plan, stride, cancel);
-      if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
-    }
-  return work;
 }
 
 EngineTimes times_of(const std::vector<MeasuredRate>& rates) {

@@ -28,6 +28,7 @@ namespace bihive {
 struct FrameRatePlan {
   std::vector<std::int64_t> scenarios, spheres, max_prims;  ///< none empty
   double radius = 1, fov_deg = 30;  ///< of the spheres; of the camera, along the picture's shorter side
+  double corner_side = 8;           ///< of the small cubes of Scenarios 2 and 3
   std::uint64_t seed = 1;
   int width_px = 0, height_px = 0;
   int recursion = 1;
@@ -53,10 +54,20 @@ struct FrameRatePlan {
   int configurations() const;
 };
 
-/// Counts the primary rays of a plan's picture, of every `stride`-th row and column alone: their means in the trees of
-/// the plan's MAX_PRIMS, in all its configurations. A MAX_PRIMS that no leaf reaches means a single leaf, and is stored
-/// under the number of spheres. Error: "cancelled", or there is no such scenario.
-Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel = nullptr);
+/// How the work of a ray is counted.
+enum class Counting {
+  each_ray,          ///< its own steps; nodes beyond the closest hit so far are left out
+  without_culling,   ///< its own steps, in all nodes that it meets
+  lockstep_by_node,  ///< the longest of 8 x 4 rays, which take their next node together, whatever it is
+  lockstep_by_leaf,  ///< the longest of 8 x 4 rays, each of which goes down to its next leaf before any tests its
+                     ///< spheres
+};
+
+/// Counts the primary rays of a plan's picture, of every `stride`-th row and column (or block of rays) alone: their
+/// means in the trees of the plan's MAX_PRIMS, in all its configurations. A MAX_PRIMS that no leaf reaches means a
+/// single leaf, and is stored under the number of spheres. Error: "cancelled", or there is no such scenario.
+Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const CancelToken* cancel = nullptr,
+                                  Counting counting = Counting::each_ray);
 
 /// One configuration's times.
 struct MeasuredRate {

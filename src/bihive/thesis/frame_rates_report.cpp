@@ -150,7 +150,10 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
   if (costs != nullptr && costs->fitted.frames > 0) {
     ordered_json& row = json["costs"];
     for (const auto& [name, value] : costs->fitted.named()) row[name] = value;
-    row.update({{"rms", costs->fitted.rms},
+    row.update({{"inner_words", costs->fitted.words().inner},
+                {"leaf_words", costs->fitted.words().leaf},
+                {"determined", costs->fitted.determined()},
+                {"rms", costs->fitted.rms},
                 {"winner", tree_name(costs->pattern.max_prims)},
                 {"wins", costs->wins},
                 {"configurations", costs->work.size()}});
@@ -194,7 +197,7 @@ std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const State
   std::vector<std::string> charts;
   if (costs != nullptr && costs->fitted.frames > 0) {
     CostDiagram diagram = cost_diagram(costs->work, costs->pattern, {});
-    diagram.points = {{here, costs->fitted}};
+    if (costs->fitted.determined()) diagram.points = {{here, costs->fitted}};
     charts.push_back(cost_diagram_svg(diagram));
   }
   const auto add = [&charts](std::string chart) {
