@@ -109,7 +109,7 @@ RenderSettings random_settings(std::uint64_t seed) {
   if (seed % 5 < 2) settings.fog = Fog{0.1, 0.8, 0.7};
   if (seed % 7 < 4) settings.tone = {0.3 * static_cast<double>(seed % 6) - 0.5, static_cast<ToneCurve>(seed % 3)};
   if (seed % 3 == 0) settings.ambient_occlusion = {seed % 2 == 0 ? 3.0 : AmbientOcclusion{}.distance, 5};
-  // More than kFewestOfFaint, so that faint surfaces ask fewer.
+  // More than kFewestDirections, so that faint surfaces ask fewer.
   if (seed % 12 == 0) settings.ambient_occlusion->directions = 20;
   if (seed % 12 == 2) settings.light_points = 17;
   return settings;

@@ -139,9 +139,10 @@ TEST(Transparency, faint_layers_ask_fewer_directions_and_points) {
   EXPECT_EQ(faint_level(0.5), 1);
   EXPECT_EQ(faint_level(0.125), 3);
   EXPECT_EQ(faint_level(0), kFaintLevels - 1);
-  EXPECT_EQ(asked_at_level(64, 2), 16);
-  EXPECT_EQ(asked_at_level(64, 4), kFewestOfFaint);
-  EXPECT_EQ(asked_at_level(5, 4), 5);
+  EXPECT_EQ(used_at_level(64, 2, kFewestDirections), 16);
+  EXPECT_EQ(used_at_level(64, 5, kFewestDirections), kFewestDirections);
+  EXPECT_EQ(used_at_level(12, 4, kFewestLightPoints), kFewestLightPoints);
+  EXPECT_EQ(used_at_level(3, 4, kFewestDirections), 3);
 
   // One layer of opacity 1/4 before nothing: a quarter of the rays of an opaque sphere.
   const AmbientRays ambient({10, 256}, 1);

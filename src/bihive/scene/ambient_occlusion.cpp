@@ -15,7 +15,7 @@ DirectionSets::DirectionSets(int directions, int samples_per_pixel) {
   const Rotation step = turn_by(golden);
   const int sets = std::min(samples_per_pixel, kMostDirectionSets);
   for (int n = 0; n < sets * kFaintLevels; ++n) {
-    const int asked = asked_at_level(directions, n / sets);
+    const int asked = used_at_level(directions, n / sets, kFewestDirections);
     const int i = n % sets;
     const SamplePlace place = sample_place(i, sets);
     std::vector<Vec3f>& set = sets_.emplace_back();

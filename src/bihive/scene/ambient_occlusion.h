@@ -24,7 +24,7 @@ class DirectionSets {
   DirectionSets(int directions, int samples_per_pixel);
 
   int count() const { return static_cast<int>(sets_.size()) / kFaintLevels; }
-  /// Directions of length 1 up to binary32 rounding, spread evenly over the sphere; asked_at_level() of them.
+  /// Directions of length 1 up to binary32 rounding, spread evenly over the sphere; used_at_level() of them.
   const std::vector<Vec3f>& of_sample(std::int64_t sample, int level = 0) const {
     return sets_[static_cast<std::size_t>(level * count() + sample % count())];
   }

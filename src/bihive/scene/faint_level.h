@@ -7,10 +7,12 @@
 namespace bihive {
 
 /// Levels 0 to kFaintLevels - 1. Each level traces half as many rays as the previous one.
-constexpr int kFaintLevels = 5;
+constexpr int kFaintLevels = 6;
 
-/// No level traces fewer rays than this, unless the picture does.
-constexpr int kFewestOfFaint = 8;
+/// No level uses fewer than this, unless the picture does. Where no direction is in front of a surface it counts as
+/// open: one time in 16 with four.
+constexpr int kFewestDirections = 4;
+constexpr int kFewestLightPoints = 1;
 
 /// The level of a surface that contributes at most this share of its pixel's light: 0 above 1/2, 1 above 1/4, and so
 /// on.
@@ -20,9 +22,10 @@ inline int faint_level(double share) {
   return level;
 }
 
-/// How many of `count` directions or points a surface of that level uses.
-inline int asked_at_level(int count, int level) {
-  return std::min(count, std::max(kFewestOfFaint, count >> level));
+/// How many of `count` directions or points a surface of that level uses; `fewest`: kFewestDirections or
+/// kFewestLightPoints.
+inline int used_at_level(int count, int level, int fewest) {
+  return std::min(count, std::max(fewest, count >> level));
 }
 
 }  // namespace bihive

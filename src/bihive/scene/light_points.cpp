@@ -16,7 +16,7 @@ LightPointSets::LightPointSets(int points, int samples_per_pixel) {
   const Rotation step_b = turn_by(1 / (kPlastic * kPlastic));
   const int sets = std::min(samples_per_pixel, kMostPointSets);
   for (int n = 0; n < sets * kFaintLevels; ++n) {
-    const int asked = asked_at_level(points, n / sets);
+    const int asked = used_at_level(points, n / sets, kFewestLightPoints);
     const int i = n % sets;
     const SamplePlace place = sample_place(i, sets);
     std::vector<Vec3d>& set = sets_.emplace_back();

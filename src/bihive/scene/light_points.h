@@ -25,7 +25,7 @@ class LightPointSets {
   LightPointSets(int points, int samples_per_pixel);
 
   int count() const { return static_cast<int>(sets_.size()) / kFaintLevels; }
-  /// asked_at_level() points.
+  /// used_at_level() points.
   const std::vector<Vec3d>& of_sample(std::int64_t sample, int level = 0) const {
     return sets_[static_cast<std::size_t>(level * count() + sample % count())];
   }

@@ -52,8 +52,8 @@ vec3 tinted(Material material) {
 vec3 ambient_visibility(Surface surface, int level, inout int ambient_rays) {
 #ifdef AMBIENT_OCCLUSION
   if (direction_begin == direction_end) return vec3(0.0);
-  int count = asked_at_level(direction_count, level);
-  int first = first_at_level(direction_count, direction_sets, direction_set, level);
+  int count = used_at_level(direction_count, level, kFewestDirections);
+  int first = first_at_level(direction_count, direction_sets, direction_set, level, kFewestDirections);
   int end = direction_end * count / direction_count;
   vec3 seen = vec3(0.0);
   for (int k = direction_begin * count / direction_count; k < end; ++k) {
@@ -95,8 +95,8 @@ LightOffset light_offset(vec3 point, Surface surface) {
 }
 
 vec3 local_light(Surface surface, bool shadows, int level, vec3 visibility, inout int shadow_rays) {
-  int soft_points = asked_at_level(light_point_count, level);
-  int first_point = first_at_level(light_point_count, light_point_sets, light_point_set, level);
+  int soft_points = used_at_level(light_point_count, level, kFewestLightPoints);
+  int first_point = first_at_level(light_point_count, light_point_sets, light_point_set, level, kFewestLightPoints);
   vec3 diffuse = vec3(0.0);
   vec3 specular = vec3(0.0);
   for (int i = light_begin; i < light_end; ++i) {

@@ -66,11 +66,27 @@ HWY_EXPORT(find_light_rays_on_target);
 
 namespace steps {
 
-void gather_places(const WaveSurfaces& surfaces, const PlacesAlike& alike, PlaceWave& wave) {
-  wave.reset(surfaces.count, alike.channels);
-  for (std::int64_t i = 0; i < surfaces.count; ++i) {
-    if ((alike.first_sample + surfaces.owner[i]) % alike.samples % alike.sets != alike.set) continue;
-    if (alike.level_of != nullptr && alike.level_of[i] != alike.level) continue;
+void group_places(const WaveSurfaces& surfaces, const Grouping& by, PlaceGroups& groups) {
+  const auto group_of = [&](std::int64_t i) {
+    const std::int64_t level = by.level_of != nullptr ? by.level_of[i] : 0;
+    return static_cast<std::size_t>(level * by.sets + (by.first_sample + surfaces.owner[i]) % by.samples % by.sets);
+  };
+  const auto count = static_cast<std::size_t>(by.levels * by.sets);
+  groups.first.assign(count + 1, 0);
+  for (std::int64_t i = 0; i < surfaces.count; ++i) ++groups.first[group_of(i) + 1];
+  for (std::size_t group = 0; group < count; ++group) groups.first[group + 1] += groups.first[group];
+  groups.surfaces.resize(static_cast<std::size_t>(surfaces.count));
+  std::vector<std::int64_t> next(groups.first.begin(), groups.first.end() - 1);
+  for (std::int64_t i = 0; i < surfaces.count; ++i) groups.surfaces[static_cast<std::size_t>(next[group_of(i)]++)] = i;
+}
+
+void gather_places(const WaveSurfaces& surfaces, const PlaceGroups& groups, std::int64_t group, int channels,
+                   PlaceWave& wave) {
+  const std::int64_t begin = groups.first[static_cast<std::size_t>(group)];
+  const std::int64_t end = groups.first[static_cast<std::size_t>(group) + 1];
+  wave.reset(end - begin, channels);
+  for (std::int64_t at = begin; at < end; ++at) {
+    const std::int64_t i = groups.surfaces[static_cast<std::size_t>(at)];
     const std::int64_t k = wave.places++;
     for (int axis = 0; axis < 3; ++axis) {
       wave.origin[axis][k] = surfaces.origin[axis][i];

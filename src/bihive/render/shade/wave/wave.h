@@ -248,15 +248,23 @@ void find_surfaces(const WaveScene& scene, const WavePart& rays, const double* t
 /// `shadows`.
 void find_shadow_rays(const WaveSurfaces& surfaces, std::int64_t first, const PointLight& light, ShadowWave& shadows);
 
-/// Surfaces that take the same directions or points of lights: those of faint_level() `level` whose owners have the
-/// numbers first_sample + owner = `set` modulo `sets`, after modulo `samples`.
-struct PlacesAlike {
-  std::int64_t first_sample, samples, set, sets;
-  int level = 0;
-  const std::uint8_t* level_of = nullptr;  ///< of each surface; null: 0
-  int channels = 1;                        ///< of PlaceWave
+/// The surfaces in groups that take the same directions or points of lights: group level * sets + set has those of
+/// faint_level() `level` whose owners have the numbers first_sample + owner = `set` modulo `sets`, after modulo
+/// `samples`, in their order.
+struct PlaceGroups {
+  std::vector<std::int64_t> first;     ///< of each group, in `surfaces`; and their number
+  std::vector<std::int64_t> surfaces;  ///< numbers in WaveSurfaces
 };
-void gather_places(const WaveSurfaces& surfaces, const PlacesAlike& alike, PlaceWave& wave);
+struct Grouping {
+  std::int64_t first_sample, samples, sets;
+  int levels = 1;
+  const std::uint8_t* level_of = nullptr;  ///< of each surface; null: 0
+};
+void group_places(const WaveSurfaces& surfaces, const Grouping& by, PlaceGroups& groups);
+
+/// The surfaces of one group, for light in `channels` colours (PlaceWave).
+void gather_places(const WaveSurfaces& surfaces, const PlaceGroups& groups, std::int64_t group, int channels,
+                   PlaceWave& wave);
 
 /// Sets the sums of the places to 0.
 void forget_sums(PlaceWave& wave);

@@ -276,9 +276,10 @@ void WaveIntegrator::find_levels(WaveBuffers& buffers) const {
   }
 }
 
-steps::PlacesAlike WaveIntegrator::alike(int set, int sets, int level, const WaveBuffers& buffers) const {
-  return {first_sample_, settings_.samples_per_pixel, set, sets, level, levels() > 1 ? buffers.level.data() : nullptr,
-          channels()};
+void WaveIntegrator::group_places(int sets, WaveBuffers& buffers) const {
+  const std::uint8_t* const level_of = levels() > 1 ? buffers.level.data() : nullptr;
+  steps::group_places(buffers.surfaces, {first_sample_, settings_.samples_per_pixel, sets, levels(), level_of},
+                      buffers.groups);
 }
 
 void WaveIntegrator::find_shadows(int depth, WaveBuffers& buffers) {
@@ -329,10 +330,11 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
     buffers.light_seen[channel].reserve(all);
   }
   PlaceWave& wave = buffers.places;
+  group_places(points.count(), buffers);
   for (int n = 0; n < points.count() * levels(); ++n) {
     const int set = n % points.count();
     const int level = n / points.count();
-    steps::gather_places(surfaces, alike(set, points.count(), level, buffers), wave);
+    steps::gather_places(surfaces, buffers.groups, n, channels(), wave);
     if (wave.places == 0) continue;
     const std::vector<Vec3d>& of_set = points.of_sample(set, level);
     const auto count = static_cast<double>(of_set.size());
@@ -362,10 +364,11 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
   const AmbientRays& ambient = *settings_.ambient;
   PlaceWave& wave = buffers.places;
   for (int channel = 0; channel < channels(); ++channel) buffers.visibility[channel].reserve(surfaces.count);
+  group_places(ambient.sets.count(), buffers);
   for (int n = 0; n < ambient.sets.count() * levels(); ++n) {
     const int set = n % ambient.sets.count();
     const int level = n / ambient.sets.count();
-    steps::gather_places(surfaces, alike(set, ambient.sets.count(), level, buffers), wave);
+    steps::gather_places(surfaces, buffers.groups, n, channels(), wave);
     if (wave.places == 0) continue;
     const std::vector<Vec3f>& directions = ambient.sets.of_sample(set, level);
     const auto towards = [&](std::size_t i) { steps::find_ambient_rays(directions[i], wave); };

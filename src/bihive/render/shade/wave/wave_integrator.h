@@ -49,6 +49,7 @@ struct WaveBuffers {
   ShadowWave shadows;
   Column<std::uint8_t> hidden;
   Columns3<double> share;
+  steps::PlaceGroups groups;
   PlaceWave places;
   AnswersAhead ahead;
   Column<std::uint8_t> level;  ///< faint_level() of each surface; only where spheres are passed straight
@@ -125,7 +126,7 @@ class WaveIntegrator {
   void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
   void find_levels(WaveBuffers& buffers) const;
   int levels() const { return to_eye() != nullptr ? kFaintLevels : 1; }
-  steps::PlacesAlike alike(int set, int sets, int level, const WaveBuffers& buffers) const;
+  void group_places(int sets, WaveBuffers& buffers) const;
   void find_shadows(int depth, WaveBuffers& buffers);
   void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);
