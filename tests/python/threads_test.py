@@ -83,7 +83,7 @@ class Threads(ProgramTest):
     def test_spheres(self):
         s = spheres()
         arguments = {"__getitem__": ("charge",), "core.select": ("element C and charge > 0", "select", True), "core.written": ("csv",),
-                     "core.statistics": ([],), "core.what_there_is": ("element Fe",)}
+                     "core.measured": (np.array([[0, 1, 2], [4, 3, 9]]), True), "core.statistics": ([],), "core.what_there_is": ("element Fe",)}
         calls = calls_of(s, self.folder, arguments, left_out={"save", "core.statistics"})
         calls["save"] = lambda: s.save(self.path_of_thread("csv"))
         calls["subset"] = lambda: s[np.arange(100)].xyz
