@@ -60,8 +60,9 @@ class Scene(ProgramTest):
     def test_the_documents_of_the_documentation_are_scenes(self):
         with open(os.path.join(os.environ["BIHIVE_SOURCE"], "docs", "scene_format.md"), encoding="utf-8") as file:
             documents = re.findall(r"```json\n(.*?)```", file.read(), re.DOTALL)
-        self.assertEqual(len(documents), 6)
-        self.write("molecule.pdb", "HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O  \n")
+        self.assertEqual(len(documents), 7)
+        self.write("molecule.pdb", "HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O  \n"
+                   "HETATM    2  O   LIG B   2       4.000   2.000   3.000  1.00  0.00           O  \n")
         for document in documents:
             self.write("s.json", document)
             self.succeed("render", "s.json", "--size", "32x24", "-o", "a.png")

@@ -182,7 +182,7 @@ class Arguments(ProgramTest):
 
     def test_every_public_name_is_tried(self):
         tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Orthographic", "Perspective", "Look", "Style", "Hits", "Near",
-                 "again", "colour_map", "convert", "film", "read", "render", "select", "stats", "verify", "view"}
+                 "again", "angle", "colour_map", "convert", "dihedral", "distance", "film", "read", "render", "select", "stats", "verify", "view"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
@@ -207,6 +207,9 @@ class Arguments(ProgramTest):
     def test_functions_of_spheres(self):
         self.try_all(bh.select, {"spheres": self.spheres, "expression": "all"})
         self.try_all(bh.stats, {"spheres": self.spheres})
+        self.try_all(bh.distance, {"spheres": self.spheres, "pairs": [[0, 1], [2, 3]]})
+        self.try_all(bh.angle, {"spheres": self.spheres, "triples": [0, 1, 2]})
+        self.try_all(bh.dihedral, {"spheres": self.spheres, "quadruples": [0, 1, 2, 3]})
         self.try_all(bh.colour_map, {"values": [1.0, 2, 3, 4]})
         self.try_all(bh.read, {"path": "demo"}, options=_spheres._READING)
         figure = self.path("figure.png")
