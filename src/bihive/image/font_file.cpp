@@ -3,6 +3,7 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 namespace bihive {
 namespace {
 
+constexpr double kMostEms = 16;
 constexpr FT_Int32 kUnscaled = FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP;
 
 using Contour = std::vector<OutlinePoint>;
@@ -116,7 +118,12 @@ class FreeTypeFont final : public Font {
     const FT_UInt index = character == 0 ? 0 : FT_Get_Char_Index(face_, character);
     if (index == 0 || FT_Load_Glyph(face_, index, kUnscaled) != 0) return std::nullopt;
     const double unit = face_->units_per_EM;
+    // A damaged glyph that reaches far beyond its line counts as lacking: it would take the memory of a huge picture.
+    const auto is_far = [unit](FT_Pos length) { return std::abs(static_cast<double>(length)) > kMostEms * unit; };
     const FT_Outline& outline = face_->glyph->outline;
+    if (is_far(face_->glyph->advance.x)) return std::nullopt;
+    for (int i = 0; i < outline.n_points; ++i)
+      if (is_far(outline.points[i].x) || is_far(outline.points[i].y)) return std::nullopt;
     Glyph glyph{static_cast<double>(face_->glyph->advance.x) / unit, {}};
     int first = 0;
     for (int k = 0; k < outline.n_contours; ++k) {
