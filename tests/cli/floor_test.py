@@ -73,6 +73,7 @@ class Floor(ProgramTest):
         self.succeed("film", "f.xyz", "-o", "f/%d.png", "--floor", "shadow", *SIZE[:4])
         floors = [json.loads(png_text(self.read(f"f/{k}.png"))["Settings"])["floor"] for k in range(3)]
         self.assertEqual(floors, [floors[0]] * 3)
+        self.assertIn("3 of 3 figures have the same bits", self.succeed("verify", "f"))
 
     def test_a_scene_file_may_have_such_a_plane(self):
         scene = {"bihive_scene": 2, "spheres": [[0, 0, 0, 1]], "lights": [{"position": [3, 9, 4]}],

@@ -129,10 +129,7 @@ void add_moves(const ordered_json& value, const FilmPlan::Asked& asked, FilmPlan
     for (const ordered_json& one : value.at("shifts")) fixed.shifts.push_back(point_of(one));
   if (value.contains("motions"))
     for (const ordered_json& one : value.at("motions")) fixed.motions.push_back(motion_of(one));
-  if (value.contains("floor")) {
-    fixed.floor = Plane{point_of(value.at("floor").at("point")), vector_of(value.at("floor").at("normal"))};
-    if (!(std::abs(length(fixed.floor->normal) - 1) < 1e-6)) throw std::out_of_range("floor");
-  }
+  if (value.contains("floor")) fixed.floor = plane_of(value.at("floor"));
   check_count(fixed.shifts.size(), asked);
   check_count(fixed.motions.size(), asked);
 }
@@ -142,10 +139,6 @@ FilmPlan::Made made_of(const ordered_json& value) {
   if (!hash) throw std::out_of_range("hash");
   return {whole_of(value.at("bytes"), 0, std::numeric_limits<std::int64_t>::max()), *hash};
 }
-
-}  // namespace
-
-namespace {
 
 ordered_json plan_json(const FilmPlan& plan) {
   ordered_json fixed = ordered_json::object();
@@ -157,9 +150,7 @@ ordered_json plan_json(const FilmPlan& plan) {
   if (plan.fixed.turn_axis) fixed["turn_axis"] = vector_json(*plan.fixed.turn_axis);
   for (const Vec3d shift : plan.fixed.shifts) fixed["shifts"].push_back(vector_json(shift));
   for (const RigidMotion& motion : plan.fixed.motions) fixed["motions"].push_back(motion_json(motion));
-  if (plan.fixed.floor)
-    fixed["floor"] = {{"point", vector_json(plan.fixed.floor->point)},
-                      {"normal", vector_json(plan.fixed.floor->normal)}};
+  if (plan.fixed.floor) fixed["floor"] = plane_json(*plan.fixed.floor);
   return {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
 }
 

@@ -211,8 +211,7 @@ std::array<bool, 3> periodic(const Spheres& spheres) {
   return cell ? cell->periodic : std::array<bool, 3>{};
 }
 
-// `name` names the argument in errors. With `periodic`, distances are to the nearest image in the set's periodic cell.
-// Of each row of positions, which are in range.
+// The distance or angle of each row of positions, which are in range.
 py::array_t<double> measured_rows(const Spheres& spheres, const py::array_t<std::int64_t, py::array::c_style>& rows,
                                   bool periodic) {
   const auto count = rows.shape(0);
@@ -228,6 +227,7 @@ py::array_t<double> measured_rows(const Spheres& spheres, const py::array_t<std:
   return made;
 }
 
+// `name` names the argument in errors. With `periodic`, distances are to the nearest image in the set's periodic cell.
 py::array_t<bool> select(const Spheres& spheres, const std::string& expression, const std::string& name,
                          bool periodic) {
   std::vector<std::uint8_t> mask;

@@ -75,12 +75,24 @@ RigidMotion motion_of(const ordered_json& value) {
   return motion;
 }
 
+ordered_json plane_json(const Plane& plane) {
+  return {{"point", vector_json(plane.point)}, {"normal", vector_json(plane.normal)}};
+}
+
+Plane plane_of(const ordered_json& value) {
+  constexpr double kRounding = 1e-6;  // of a length of 1
+  const Plane plane{point_of(value.at("point")), vector_of(value.at("normal"))};
+  if (!(std::abs(length(plane.normal) - 1) < kRounding)) throw std::out_of_range("plane");
+  return plane;
+}
+
 ordered_json fixed_json(const FixedByFilm& fixed) {
   ordered_json json{{"camera", camera_json(fixed.camera)},
                     {"range_of_style", range_json(fixed.range_of_style)},
                     {"ranges_of_looks", ordered_json::array()}};
   for (const ColourRange& range : fixed.ranges_of_looks) json["ranges_of_looks"].push_back(range_json(range));
   if (fixed.motion) json["motion"] = motion_json(*fixed.motion);
+  if (fixed.floor) json["floor"] = plane_json(*fixed.floor);
   if (fixed.fits_each) json["fits_each"] = true;
   return json;
 }
@@ -89,6 +101,7 @@ FixedByFilm fixed_by_film_of(const ordered_json& value) {
   FixedByFilm fixed{camera_of(value.at("camera")), range_of(value.at("range_of_style")), {}};
   for (const ordered_json& range : value.at("ranges_of_looks")) fixed.ranges_of_looks.push_back(range_of(range));
   if (value.contains("motion")) fixed.motion = motion_of(value.at("motion"));
+  if (value.contains("floor")) fixed.floor = plane_of(value.at("floor"));
   fixed.fits_each = value.value("fits_each", false);
   return fixed;
 }

@@ -23,6 +23,10 @@ Camera camera_of(const nlohmann::ordered_json& value);
 nlohmann::ordered_json motion_json(const RigidMotion& motion);
 RigidMotion motion_of(const nlohmann::ordered_json& value);
 
+nlohmann::ordered_json plane_json(const Plane& plane);
+/// Its normal has length 1.
+Plane plane_of(const nlohmann::ordered_json& value);
+
 nlohmann::ordered_json fixed_json(const FixedByFilm& fixed);
 FixedByFilm fixed_by_film_of(const nlohmann::ordered_json& value);
 
