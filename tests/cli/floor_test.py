@@ -1,7 +1,9 @@
 """Floors: planes below the spheres, in a colour or seen by their shadows alone."""
 
 import json
+import math
 
+from exr_file import ExrFile
 from program import ProgramTest, main, png_numbers, png_text
 
 BALLS = "x,y,z,r\n0,0,0,1\n3,1,0,1\n"
@@ -50,6 +52,16 @@ class Floor(ProgramTest):
                 self.assertAlmostEqual(red * alpha / 255 + 255 - alpha, white_red, delta=2)
                 partly += 0 < alpha < 255 and red == green == blue == 0
         self.assertGreater(partly, 100)
+
+    def test_layers_know_spheres_alone(self):
+        layers = {}
+        for floor in ([], ["--floor", "shadow"]):
+            done = self.run_bihive("render", "a.csv", "-o", "a.exr", *SIZE, "--turn", "20,30", *floor, "--layers", "depth,id,normal")
+            if "no OpenEXR" in done.stderr:
+                self.skipTest("built without OpenEXR")
+            layers[len(floor)] = ExrFile(self.read("a.exr")).channels
+        self.assertEqual(layers[2], layers[0])
+        self.assertTrue(any(depth < math.inf for row in layers[0]["Z"] for depth in row))
 
     def test_engines_threads_and_crops_have_the_same_bits(self):
         look = ["--style", "studio", "--floor", "shadow", "--select", "index 1", "--opacity", "0.4"]

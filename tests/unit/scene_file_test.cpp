@@ -490,6 +490,16 @@ TEST(SceneFileWriting, FourSpheresComeBack) {
   expect_there_and_back(four_spheres_scene());
 }
 
+TEST(SceneFileWriting, PlanesOfShadowsComeBackInVersion2) {
+  Scene scene = four_spheres_scene();
+  scene.plane->shadows_only = true;
+  EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 2,"));
+  const Result<LoadedScene> loaded = parse_scene(scene_to_json(scene), "a.json", {});
+  ASSERT_TRUE(loaded.ok()) << loaded.error().to_string();
+  EXPECT_TRUE(loaded->scene.plane->shadows_only);
+  expect_there_and_back(scene);
+}
+
 TEST(SceneFileWriting, AmbientOcclusionComesBackInVersion2) {
   Scene scene = four_spheres_scene();
   EXPECT_THAT(scene_to_json(scene), HasSubstr("\"bihive_scene\": 1,"));

@@ -18,7 +18,7 @@ namespace bihive {
 /// radiance: the film's light, channels R, G, B; with coverage also A, and R, G, B are multiplied by it, as readers of
 /// OpenEXR expect. All others are of the first surface (sphere or plane) on the ray through the pixel's centre and the
 /// middle of the lens; nothing is averaged, so an id is the id of a sphere, and a transparent sphere counts like any
-/// other:
+/// other. A plane that shows shadows alone counts as nothing:
 /// albedo.R, albedo.G, albedo.B: the colour of its material before any light, linear; 0 where there is nothing.
 /// depth, channel Z: the distance along the view from the camera, in world units, as Camera::focus; +inf for nothing.
 /// normal.X, normal.Y, normal.Z: its normal in the world, of length 1, turned against the ray; 0 for nothing.

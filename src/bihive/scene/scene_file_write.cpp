@@ -167,7 +167,7 @@ int version_of(const Scene& scene) {
   const bool parallel = scene.camera.projection != Projection::perspective;
   return picture_version(scene.picture) > 1 || !lens_members(scene.camera).empty() || has_soft_light(scene) ||
                  has_effects(scene) || has_own_outlines(scene) || has_ambient_light(scene) || parallel ||
-                 !scene.clips.empty() || scene.spheres.cell()
+                 !scene.clips.empty() || scene.spheres.cell() || (scene.plane && scene.plane->shadows_only)
              ? 2
              : 1;
 }

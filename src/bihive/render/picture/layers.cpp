@@ -212,7 +212,8 @@ std::vector<Channel> draw_layers(const Scene& scene, const Tracer& tracer, const
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         const Ray ray = rays.at(x + 0.5, y + 0.5);
-        const SceneHit hit = scene_hit(scene, hits.at(next++), ray);
+        SceneHit hit = scene_hit(scene, hits.at(next++), ray);
+        if (hit.id == kPlane && scene.plane->shadows_only) hit = {};
         const std::size_t pixel = static_cast<std::size_t>(y - drawn.y0) * static_cast<std::size_t>(drawn.width()) +
                                   static_cast<std::size_t>(x - drawn.x0);
         for (const LayerWriter& writer : writers) writer.put(pixel, ray, hit);
