@@ -270,7 +270,7 @@ class EncodedFilm final : public FilmSink {
   std::string animation_;  // ".gif" or ".apng"; empty: another film
   std::string ending_, ffmpeg_, rate_;
   std::optional<PictureRecord> record_;
-  std::vector<std::string> sha256_;  // of the pictures of this segment
+  std::vector<std::string> sha256_;  // one per picture of the current segment
   std::int64_t pictures_, shortest_;
   std::vector<std::string> input_, codec_;
   std::vector<Segment> segments_;

@@ -34,7 +34,7 @@ struct FilmPlan {
     bool metadata = true;  ///< its files say how they were made
   } asked;
 
-  /// Of the request for all pictures; unset without metadata.
+  /// Records the request for all pictures; unset without metadata.
   std::optional<PictureRecord> record;
 
   /// Values from the film's first frame.

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -40,15 +41,6 @@ std::string gif_comment(const std::string& text) {
   return bytes + '\0';
 }
 
-std::uint32_t crc_of(const std::string& bytes) {
-  std::uint32_t crc = 0xFFFFFFFF;
-  for (const char c : bytes) {
-    crc ^= static_cast<unsigned char>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320u : 0);
-  }
-  return ~crc;
-}
-
 std::string big_endian(std::uint32_t number) {
   std::string bytes;
   for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xFF);
@@ -57,7 +49,8 @@ std::string big_endian(std::uint32_t number) {
 
 std::string text_chunk(const std::string& text) {
   const std::string named = "tEXt" + kLateKeyword + '\0' + text;
-  return big_endian(static_cast<std::uint32_t>(named.size() - 4)) + named + big_endian(crc_of(named));
+  const uLong crc = crc32(0, reinterpret_cast<const Bytef*>(named.data()), static_cast<uInt>(named.size()));
+  return big_endian(static_cast<std::uint32_t>(named.size() - 4)) + named + big_endian(static_cast<std::uint32_t>(crc));
 }
 
 // The comments of a GIF, one after the other; empty: it has none, or is none.
@@ -82,7 +75,7 @@ std::string gif_comments(const std::string& gif) {
   return comments;
 }
 
-// What ffmpeg prints of a file.
+// The output of ffmpeg for a file.
 std::string printed_by_ffmpeg(const std::string& path, const std::vector<std::string>& words) {
   const std::string ffmpeg = find_ffmpeg();
   const std::optional<OwnFolder> folder = OwnFolder::open_shared(fs::temp_directory_path().string());

@@ -1,4 +1,4 @@
-// Where the files of films hold the record of how they were made (job/picture_record.h).
+// The record of how a film was made (job/picture_record.h), in the files of each format.
 #pragma once
 
 #include <string>

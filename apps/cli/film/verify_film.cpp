@@ -81,10 +81,7 @@ Verdict verify_film(const std::string& path, const std::string& input, const Dra
       if (verdict.pictures_differ++ == 0) verdict.first_picture = position;
     }
   } catch (const Failure& failure) {
-    if (failure.code == kInterrupted) throw;
-    Error error = failure.error;
-    if (error.file == path) error.file.clear();
-    verdict.error = error.to_string();
+    note_failure(failure, verdict);
   }
   return verdict;
 }

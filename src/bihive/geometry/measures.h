@@ -18,8 +18,8 @@ double angle_deg(Vec3d a, Vec3d b, Vec3d c);
 /// clockwise positive [IUPAC1970]. NaN where three positions in turn lie on a line.
 double dihedral_deg(Vec3d a, Vec3d b, Vec3d c, Vec3d d);
 
-/// Between the centres of two to four spheres of a set: their distance, angle or dihedral angle, each sphere at its
-/// image that is nearest to the one before. `lattice`: of the set's cell; none: the spheres alone.
+/// The distance, angle or dihedral angle of two, three or four sphere centres. Each sphere counts at its image nearest
+/// to the one before it. `lattice`: of the set's cell; without one, the spheres themselves count.
 double measured(const SphereSet& spheres, std::span<const std::int64_t> ids, const std::optional<Lattice>& lattice);
 
 /// Of the vectors that differ from this one by vectors of the lattice, a shortest one; itself without a lattice, or

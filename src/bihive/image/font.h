@@ -34,7 +34,7 @@ class Font {
 /// Sans; a box for one that both lack.
 const Glyph& glyph_of(char32_t character, const Font* font = nullptr);
 
-/// What is added to the advance of `left` in front of `right`, in units of the font's size. 0 between two fonts.
+/// Kerning: added to the advance of `left` before `right`, in units of the font's size. 0 between glyphs of two fonts.
 double kerning_between(char32_t left, char32_t right, const Font* font = nullptr);
 
 /// From the line that letters stand on to the top and to the bottom of a line of text, in units of the font's size.

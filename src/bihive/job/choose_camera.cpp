@@ -89,8 +89,8 @@ Side side_for(const Scene& scene, const PictureRequest& request, const RenderSet
   return principal_side(selected ? *selected : RemainingSpheres(scene).set(), is_upright);
 }
 
-// The same side with another direction up. Where that is the direction of view, the world is tipped: with z up the
-// front is seen along y.
+// The side with another up vector. If that is parallel to the direction of view, the view is tipped by 90 degrees: with
+// z up, the front is seen along +y.
 Side with_up(Side side, Vec3d up, bool side_is_given) {
   if (parallel(up, side.back)) {
     if (side_is_given)

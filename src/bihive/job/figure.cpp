@@ -53,7 +53,7 @@ void compare(const PngPixels& a, const PngPixels& b, Verdict& verdict) {
   }
 }
 
-// Of the same bits, also where they are no number.
+// Whether the bits are equal, those of NaN too.
 bool same_bits(float a, float b) {
   std::uint32_t bits_a = 0, bits_b = 0;
   std::memcpy(&bits_a, &a, sizeof(a));
@@ -198,12 +198,16 @@ Verdict verify_figure(const std::string& path, const std::string& input, const s
       value_or_fail(write_png(difference, difference_of(there, now).picture, {}));
     }
   } catch (const Failure& failure) {
-    if (failure.code == kInterrupted) throw;
-    Error error = failure.error;
-    if (error.file == path) error.file.clear();
-    verdict.error = error.to_string();
+    note_failure(failure, verdict);
   }
   return verdict;
+}
+
+void note_failure(const Failure& failure, Verdict& verdict) {
+  if (failure.code == kInterrupted) throw failure;
+  Error error = failure.error;
+  if (error.file == verdict.figure) error.file.clear();
+  verdict.error = error.to_string();
 }
 
 std::string sentence_of(const Verdict& verdict) {

@@ -11,11 +11,12 @@
 
 #include "bihive/image/exr.h"
 #include "bihive/image/png_pixels.h"
+#include "bihive/job/failure.h"
 #include "bihive/job/picture_record.h"
 
 namespace bihive {
 
-/// What a file holds: pixels as a PNG has them, or the channels of an OpenEXR file by rising name.
+/// The content of a file: pixels in the form of a PNG, or the channels of an OpenEXR file, sorted by name.
 struct FigurePixels {
   PngPixels pixels;
   std::optional<ExrForm> exr{};
@@ -66,6 +67,9 @@ struct Verdict {
 using DrawFigure = std::function<FigurePixels(const PictureRequest&, const std::vector<std::string>& layers)>;
 Verdict verify_figure(const std::string& path, const std::string& input, const std::string& difference,
                       const DrawFigure& draw);
+
+/// What failed, as the verdict's error. Throws an interruption again.
+void note_failure(const Failure& failure, Verdict& verdict);
 
 /// "figure.png: the same bits", or all reasons why it does not hold.
 std::string sentence_of(const Verdict& verdict);

@@ -23,7 +23,7 @@ const std::vector<double>* ids_of(const RawSpheres& spheres) {
   return nullptr;
 }
 
-// What must be the same in two frames, so that sphere i of one is sphere i of the other; empty: they may be the same.
+// Why sphere i of one frame cannot be sphere i of the other; empty: it may be.
 std::string difference(const RawSpheres& a, const RawSpheres& b) {
   if (a.size() != b.size()) return "have " + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " spheres";
   const std::vector<std::uint8_t>&one = a.attributes.element, &other = b.attributes.element;
