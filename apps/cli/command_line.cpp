@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
@@ -510,21 +511,28 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   ThesisOptions thesis;
   WebOptions web;
   Request request = HelpText{"", false};
-  add_render(app, render, request);
-  add_again(app, again, request);
-  add_verify(app, verify, request);
-  add_film(app, film, request, argc, argv);
-  add_view(app, view, request);
-  add_stats(app, stats, request);
-  add_trace(app, trace, request);
-  add_scene(app, scene, request);
-  add_scene_save(app, scene_save, request);
-  add_info(app, info, request);
-  add_styles(app, styles, request);
-  add_select(app, select, request);
-  add_convert(app, convert, request);
-  add_thesis(app, thesis, request);
-  add_web(app, web, request);
+  // Only the options of the command that is named, as there are more than a thousand in all; where none is, every
+  // command is listed with its options.
+  const std::pair<std::string_view, std::function<void()>> commands[] = {
+      {"render", [&] { add_render(app, render, request); }},
+      {"again", [&] { add_again(app, again, request); }},
+      {"verify", [&] { add_verify(app, verify, request); }},
+      {"film", [&] { add_film(app, film, request, argc, argv); }},
+      {"view", [&] { add_view(app, view, request); }},
+      {"stats", [&] { add_stats(app, stats, request); }},
+      {"trace", [&] { add_trace(app, trace, request); }},
+      {"scene", [&] { add_scene(app, scene, request); }},
+      {kSceneSave, [&] { add_scene_save(app, scene_save, request); }},
+      {"info", [&] { add_info(app, info, request); }},
+      {"styles", [&] { add_styles(app, styles, request); }},
+      {"select", [&] { add_select(app, select, request); }},
+      {"convert", [&] { add_convert(app, convert, request); }},
+      {"thesis", [&] { add_thesis(app, thesis, request); }},
+      {"web", [&] { add_web(app, web, request); }}};
+  const std::string_view named = argc > 1 ? argv[1] : "";
+  const bool is_named = std::ranges::any_of(commands, [&](const auto& command) { return command.first == named; });
+  for (const auto& [name, add] : commands)
+    if (!is_named || name == named) add();
   // Manual pages and completions, for the build: --help does not list it.
   if (describe && argc > 1 && std::string(argv[1]) == "describe")
     return HelpText{describe(app, {argv + 2, argv + argc}), true};

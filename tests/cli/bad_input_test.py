@@ -1,5 +1,7 @@
 """Every kind of bad input gets one clear line and exit code 1, and leaves the folder as it was."""
 
+# ctest: COST 500
+
 import gzip
 import io
 import os

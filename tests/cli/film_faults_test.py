@@ -1,6 +1,8 @@
 """bihive film among strangers and faults: planted folders and links, pictures that were there before, kills, an ffmpeg that
 hangs or lies, and descriptions that ask for what is not theirs to ask."""
 
+# ctest: COST 600
+
 import glob
 import json
 import os

@@ -1,5 +1,7 @@
 """Inputs that are small and ask for much, or are not quite what they seem."""
 
+# ctest: COST 300
+
 import contextlib
 import signal
 import gzip

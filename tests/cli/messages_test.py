@@ -1,6 +1,8 @@
 """Nothing that a terminal obeys, and nothing that nobody sees, is printed: whatever an argument or a file holds, wherever a
 message quotes it. The commands and options come from the program's own description."""
 
+# ctest: COST 690
+
 import os
 import subprocess
 import unicodedata

@@ -1,5 +1,7 @@
 """Outputs: never an input, whole or absent, into streams without a byte too many, and under any name and owner."""
 
+# ctest: COST 400
+
 import contextlib
 import glob
 import gzip

@@ -1,6 +1,8 @@
 """No output of a request is a file that it reads, whichever option names that. The options come from the program's own
 description, so that one that is added later is tried too."""
 
+# ctest: COST 300
+
 import os
 import shutil
 import unittest
