@@ -26,7 +26,7 @@ TEST(DefaultColours, points_without_kind_are_coloured_by_z) {
     ASSERT_TRUE(style.ok());
     const Scene scene = loaded(kPoints, "a.csv", &*style);
     const std::vector<Vec3f>& colours = scene.spheres.attributes().colour;
-    if (name == "plain") {
+    if (name == "plain" || name == "density") {
       EXPECT_TRUE(colours.empty());
       EXPECT_TRUE(scene.coloured_by.empty());
       continue;

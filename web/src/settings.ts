@@ -20,6 +20,7 @@ export interface PictureSettings {
   cell: boolean;
   cell_width: number;
   cell_colour: [number, number, number] | string;
+  fit_share: number;
   exposure: number;
   tone: 'none' | 'soft' | 'filmic';
   title: string;

@@ -38,7 +38,8 @@ bool reads_chunks(const RenderOptions& options, ReadingByRanks reading) {
   const bool plain_colours =
       !by || (std::find(kNumbersOfAll.begin(), kNumbersOfAll.end(), by->attribute) != kNumbersOfAll.end() &&
               by->map != ColourMap::okabe_ito);
-  return plain_colours && !style.picture.labels.legend && can_read_chunks_of(file_of(options.input));
+  return plain_colours && !style.density && style.picture.fit_share == 1 && !style.picture.labels.legend &&
+         can_read_chunks_of(file_of(options.input));
 }
 
 // The spheres of this rank, with facts about all.

@@ -130,6 +130,7 @@ void add_moves(const ordered_json& value, const FilmPlan::Asked& asked, FilmPlan
   if (value.contains("motions"))
     for (const ordered_json& one : value.at("motions")) fixed.motions.push_back(motion_of(one));
   if (value.contains("floor")) fixed.floor = plane_of(value.at("floor"));
+  if (value.contains("density")) fixed.density = density_from(value.at("density"));
   check_count(fixed.shifts.size(), asked);
   check_count(fixed.motions.size(), asked);
 }
@@ -151,6 +152,7 @@ ordered_json plan_json(const FilmPlan& plan) {
   for (const Vec3d shift : plan.fixed.shifts) fixed["shifts"].push_back(vector_json(shift));
   for (const RigidMotion& motion : plan.fixed.motions) fixed["motions"].push_back(motion_json(motion));
   if (plan.fixed.floor) fixed["floor"] = plane_json(*plan.fixed.floor);
+  if (plan.fixed.density) fixed["density"] = density_json(*plan.fixed.density);
   return {{"bihive_film", kFormat}, {"asked", asked_json(plan.asked)}, {"fixed", fixed}};
 }
 

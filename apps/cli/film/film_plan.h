@@ -45,6 +45,7 @@ struct FilmPlan {
     std::vector<Vec3d> shifts;         ///< of the camera, in each frame of the film; empty: none
     std::vector<RigidMotion> motions;  ///< of the spheres, likewise
     std::optional<Plane> floor;        ///< of the option `floor`
+    std::optional<Density> density;    ///< of the style
     ColourRange range_of_style;
     std::vector<ColourRange> ranges_of_looks;
   } fixed;

@@ -10,7 +10,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/render/frame_picture.h"
-#include "bihive/scene/clips.h"
+#include "bihive/scene/framed_spheres.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/framing_cell.h"
 #include "support/interrupt.h"
@@ -38,9 +38,9 @@ Camera camera_over_frames(const FrameSource& source, const FilmPlan& plan, const
                         settings.width_px,
                         settings.height_px,
                         insets_of_labels(first.scene, before, settings),
-                        middle_of(RemainingSpheres(first.scene).set().bounds())};
+                        middle_of(FramedSpheres(first.scene, settings.fit_share).set().bounds())};
   ViewReach reach;
-  SphereSet::Bounds bounds = RemainingSpheres(first.scene).set().bounds();
+  SphereSet::Bounds bounds = FramedSpheres(first.scene, settings.fit_share).set().bounds();
   Progress progress("the camera of all frames");
   for (std::int64_t k = 0; k < plan.asked.frames.count; ++k) {
     CancellableSection::leave_if_cancelled();
@@ -54,10 +54,10 @@ Camera camera_over_frames(const FrameSource& source, const FilmPlan& plan, const
     const Vec3d shift = fixed.shifts.empty() ? Vec3d{} : fixed.shifts[position];
     Framing here = framing;
     here.middle = here.middle + shift;
-    const RemainingSpheres remaining(input.scene);
-    const std::vector<Vec3d> corners = settings.cell_lines ? cell_corners(remaining.set()) : std::vector<Vec3d>();
-    widen_reach(reach, reach_in_view(remaining.set(), corners, here));
-    const SphereSet::Bounds own = remaining.set().bounds();
+    const FramedSpheres framed(input.scene, settings.fit_share);
+    const std::vector<Vec3d> corners = settings.cell_lines ? cell_corners(framed.set()) : std::vector<Vec3d>();
+    widen_reach(reach, reach_in_view(framed.set(), corners, here));
+    const SphereSet::Bounds own = framed.set().bounds();
     for (int axis = 0; axis < 3; ++axis) {
       bounds.lo[axis] = std::min(bounds.lo[axis], own.lo[axis] - shift[axis]);
       bounds.hi[axis] = std::max(bounds.hi[axis], own.hi[axis] - shift[axis]);

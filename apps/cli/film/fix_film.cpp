@@ -192,6 +192,7 @@ FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, c
   fixed.height_px = drawn.height();
   fixed.camera = input.scene.camera;
   if (first.floor) fixed.floor = input.scene.plane->plane;
+  fixed.density = input.density;
   const bool user_places = first.eye || first.look_at || first.fit || first.zoom_to;
   if (plan.asked.path.moves() && !user_places && (!input.has_camera || first.view_from || first.view_of))
     fixed.camera = camera_around(input, fixed.camera, first, settings);

@@ -52,6 +52,7 @@ void take_film(RenderOptions& options, const FilmPlan& plan) {
   options.fixed = FixedByFilm{camera, plan.fixed.range_of_style, plan.fixed.ranges_of_looks};
   options.fixed->fits_each = asked.fit_frames == name_of(kFittedFrames, FittedFrames::each);
   options.fixed->floor = plan.fixed.floor;
+  options.fixed->density = plan.fixed.density;
   if (!plan.fixed.motions.empty()) options.fixed->motion = plan.fixed.motions.at(position);
 }
 

@@ -122,6 +122,7 @@ SphereFile without_scene(LoadedScene loaded) {
   file.assemblies = std::move(loaded.assemblies);
   file.time_ps = loaded.time_ps;
   file.step = loaded.step;
+  file.assumed_radii = loaded.has_assumed_radii;
   file.recentred_by = loaded.recentred_by;
   return file;
 }

@@ -29,6 +29,7 @@ struct RawSpheres {
   std::string format;  ///< as in SphereFile
   std::vector<double> x, y, z, r;
   SphereAttributes attributes;
+  bool assumed_radii = false;            ///< as SphereFile::assumed_radii
   std::optional<double> unknown_radius;  ///< for spheres with neither radius nor known element; >= 0
   Assemblies assemblies;
   /// Pairs of spheres between which the file states a bond; without any it may still have some. They serve

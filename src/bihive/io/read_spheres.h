@@ -51,6 +51,7 @@ struct SphereFile {
   std::vector<std::string> assemblies;  ///< ids of the biological assemblies that the file states
   std::optional<double> time_ps;        ///< of the frame, picoseconds, where the file states it
   std::optional<std::int64_t> step;     ///< of the simulation, where the file states it
+  bool assumed_radii = false;           ///< the file states none, and no sphere has a known element: all are equal
   Vec3d recentred_by;                   ///< subtracted from every centre; 0 without `recenter`
 };
 

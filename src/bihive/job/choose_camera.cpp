@@ -112,6 +112,8 @@ Camera choose_camera(const Input& input, const PictureRequest& request, const Re
   const bool fitted = !input.has_camera || request.view_from || request.view_of || request.fit;
   // A direction that is up turns a camera that is fitted.
   const bool user_places = request.eye || request.look_at || (request.up && !fitted);
+  if (request.picture.has("fit_share") && (!fitted || user_places || request.fit || settings.view == View::tree))
+    fail_setting("fit_share", " is for a camera that bihive places over all spheres", "leave it out");
   const std::optional<SphereSet> selected = spheres_to_fill(input.scene, request, selections, settings);
   if (fitted) {
     // The fit uses the direction after the turn. A camera that the user places is turned below.

@@ -44,6 +44,7 @@ struct FixedByFilm {
   std::vector<ColourRange> ranges_of_looks;
   std::optional<RigidMotion> motion{};  ///< of all spheres, before looks
   std::optional<Plane> floor{};         ///< of `floor`
+  std::optional<Density> density{};     ///< of the style
   bool fits_each = false;               ///< the camera is that of the spheres, in place of `camera`
 };
 

@@ -25,6 +25,7 @@
 #include "bihive/render/stereo.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/legend.h"
+#include "bihive/scene/show_density.h"
 #include "bihive/scene/title_text.h"
 #include "bihive/settings/check_picture.h"
 #include "bihive/settings/picture_report.h"
@@ -207,6 +208,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   const bool is_of_film = request.fixed.has_value();
   if (is_of_film && request.fixed->motion)
     if (const Status status = move_spheres(input.scene.spheres, *request.fixed->motion); !status) fail(status.error());
+  if (is_of_film && request.fixed->density && input.density) show_density(input, request.fixed->density);
   const CameraSelections selections = is_of_film ? CameraSelections() : CameraSelections(request, input.scene.spheres);
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
   RenderSettings settings = apply_options(request, input, selections, whole);

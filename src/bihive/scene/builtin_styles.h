@@ -12,5 +12,6 @@ std::string_view style_text_studio();
 std::string_view style_text_glossy();
 std::string_view style_text_flat();
 std::string_view style_text_xray();
+std::string_view style_text_density();
 
 }  // namespace bihive

@@ -9,6 +9,7 @@
 #include "bihive/scene/creases.h"
 #include "bihive/scene/default_colours.h"
 #include "bihive/scene/load_spheres.h"
+#include "bihive/scene/show_density.h"
 
 namespace bihive {
 namespace {
@@ -44,6 +45,7 @@ LoadedScene scene_of_spheres(SphereFile file, const std::string& name, const Sty
   loaded.rules = std::move(file.rules);
   loaded.warnings = std::move(file.warnings);
   loaded.recentred_by = file.recentred_by;
+  loaded.has_assumed_radii = file.assumed_radii;
   loaded.has_scheme_colours = loaded.scene.spheres.attributes().colour.empty();
   if (style != nullptr)
     restyle(loaded, *style);
@@ -53,6 +55,7 @@ LoadedScene scene_of_spheres(SphereFile file, const std::string& name, const Sty
 }
 
 void restyle(LoadedScene& loaded, const Style& style) {
+  show_density(loaded, std::nullopt);
   apply_style(style, loaded.scene);
   loaded.rig = style.lights;
   if (loaded.has_scheme_colours) loaded.scene.spheres.attributes().colour.clear();
@@ -60,6 +63,7 @@ void restyle(LoadedScene& loaded, const Style& style) {
   loaded.scene.coloured_by_of_sphere.clear();
   loaded.scene.legend_names.clear();
   take_default_colours(loaded.scene, loaded.format, &style);
+  take_density(loaded, style);
   loaded.scene.spheres.attributes().crease.clear();
   if (style.crease.empty()) return;
   if (Result<std::vector<std::int32_t>> groups = crease_groups(loaded.scene.spheres, style.crease))

@@ -16,6 +16,7 @@
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/look_json.h"
 #include "bihive/scene/scene_json.h"
+#include "bihive/scene/show_density.h"
 #include "bihive/settings/check_picture.h"
 #include "bihive/settings/parameter_json.h"
 
@@ -52,6 +53,8 @@ class Extraction {
       scene.ambient_light = colour(document_.at("ambient_light"));
     }
     if (failed_.message.empty()) take_spheres();
+    if (failed_.message.empty() && style_ != nullptr && !document_.contains("materials"))
+      take_density(loaded_, *style_);
     if (failed_.message.empty()) take_focus();
     if (failed_.message.empty()) take_looks();
     if (!failed_.message.empty()) return failed_;
@@ -368,6 +371,7 @@ class Extraction {
     loaded_.assemblies = std::move(file.assemblies);
     loaded_.rules = std::move(file.rules);
     loaded_.recentred_by = file.recentred_by;
+    loaded_.has_assumed_radii = file.assumed_radii;
     for (const std::string& warning : file.warnings) loaded_.warnings.push_back(name_of_file + warning);
     if (!move_the_rest) return;
     scene.camera.eye = scene.camera.eye - file.recentred_by;

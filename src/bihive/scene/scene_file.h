@@ -23,6 +23,7 @@ struct LoadedScene {
   bool has_lights = false;          ///< false: the caller places the lights of `rig`
   bool states_fog = false;          ///< the document itself has fog, or none; else fog is a style's
   bool has_scheme_colours = false;  ///< a style's scheme coloured the spheres, not their file
+  bool has_assumed_radii = false;   ///< as SphereFile::assumed_radii
   LightRig rig;
   std::string format = "scene file";    ///< or "built-in", or a sphere file's format (scene/load_scene.h)
   std::int64_t frames = 1;              ///< frames or models in the document's sphere file
@@ -30,7 +31,10 @@ struct LoadedScene {
   std::optional<std::int64_t> step;     ///< of the simulation, if its file states it
   std::vector<std::string> assemblies;  ///< of its sphere file: as SphereFile::assemblies
   std::vector<std::string> rules;       ///< changes made to its spheres, one sentence each
-  Vec3d recentred_by;                   ///< subtracted from every centre; 0 without `recenter`
+  /// Of a style for points by their density; the spheres have its values. Their radius without it, if it has another.
+  std::optional<Density> density;
+  std::optional<double> radius_without_density;
+  Vec3d recentred_by;  ///< subtracted from every centre; 0 without `recenter`
   std::vector<std::string> warnings;
   std::vector<std::string> files;  ///< paths of other files that were read
   std::vector<Look> looks;         ///< the document's; already applied, unless LooksOfFile::keep was given

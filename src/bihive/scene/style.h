@@ -10,6 +10,7 @@
 #include "bihive/base/result.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/colour_by.h"
+#include "bihive/scene/density.h"
 #include "bihive/scene/palette.h"
 #include "bihive/scene/scene.h"
 
@@ -43,6 +44,8 @@ struct Style {
   std::optional<AtomColours> colour_atoms_by;
   /// Lines between spheres that touch and differ in this attribute, if they have it; empty: none.
   std::string crease;
+  /// For sets of points: their radius and opacity follow from their density. Unset: they are as the file says.
+  std::optional<DensityStyle> density;
   LightRig lights;
   Vec3d background{1, 1, 1};                     ///< linear
   PictureSettings picture = picture_of_style();  ///< its size and transfer are unused

@@ -20,9 +20,9 @@ using nlohmann::json;
 
 const Names<std::string_view (*)()>& builtin_styles() {
   static const Names<std::string_view (*)()> styles{
-      {"default", style_text_default}, {"plain", style_text_plain},   {"illustrative", style_text_illustrative},
-      {"studio", style_text_studio},   {"glossy", style_text_glossy}, {"flat", style_text_flat},
-      {"xray", style_text_xray}};
+      {"default", style_text_default}, {"plain", style_text_plain},    {"illustrative", style_text_illustrative},
+      {"studio", style_text_studio},   {"glossy", style_text_glossy},  {"flat", style_text_flat},
+      {"xray", style_text_xray},       {"density", style_text_density}};
   return styles;
 }
 
@@ -68,6 +68,13 @@ Result<Style> style_from(const json& document, const std::string& file) {
     style.colour_atoms_by = {value.at("attribute").get<std::string>(), value.value("above", std::int64_t{0})};
   }
   style.crease = document.value("crease", style.crease);
+  if (document.contains("density")) {
+    const json& value = document.at("density");
+    DensityStyle& density = style.density.emplace();
+    density.dot = value.value("dot", density.dot);
+    density.percentile = value.value("percentile", density.percentile);
+    density.brightness = value.value("brightness", density.brightness);
+  }
   if (document.contains("lights")) style.lights = light_rig(document.at("lights"));
   if (document.contains("ambient_light"))
     style.lights.ambient_light = colour_from_json(document.at("ambient_light"), Transfer::srgb);

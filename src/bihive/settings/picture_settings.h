@@ -17,6 +17,7 @@ constexpr int kMostSidePx = 65535;
 constexpr int kMostSamplesPerPixel = 4096;
 constexpr int kMostGenerations = 16;
 constexpr int kMostLightPoints = 1024;
+constexpr double kLeastFitShare = 0.5;
 
 /// Samples per pixel of adaptive sampling: for every pixel, and for those on edges.
 constexpr int kFewSamples = 4;
@@ -49,6 +50,9 @@ struct PictureSettings {
   /// Linear; of a transparent picture: the colour that will lie behind it. It takes the place of the background, and
   /// programs that mix the values of the screen show the picture with this background (image/png_pixels.h).
   std::optional<Vec3d> matte;
+  /// A camera that bihive places frames these spheres: along each axis, this share of them in the middle
+  /// (scene/framed_spheres.h); kLeastFitShare to 1.
+  double fit_share = 1;
   Stereo stereo;
   /// View::shaded: applies to the light of all samples that hit something, before outlines and fog. So the background
   /// and the colours of outlines and fog appear unchanged.

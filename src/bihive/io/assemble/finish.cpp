@@ -184,6 +184,7 @@ SphereFile SphereFinisher::finish(const RoundingLoss& of_whole) {
   file.assemblies = raw_.assemblies.ids();
   file.rules = std::move(raw_.rules);
   file.warnings = std::move(raw_.warnings);
+  file.assumed_radii = raw_.assumed_radii && options_.radius_scale == 1;
   file.recentred_by = recentred_by_;
   return file;
 }

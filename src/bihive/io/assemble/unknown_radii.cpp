@@ -101,9 +101,10 @@ void fill_radii(RawSpheres& spheres, const UnknownRadii& whole) {
           ? "as all centres are at one place"
           : std::string("half the middle distance to the nearest neighbour") + (of_first_frame ? " in frame 0" : "");
   const bool all = whole.unknown == whole.all;
+  spheres.assumed_radii = all;
   spheres.rules.push_back("radii: " + number + (all ? ", " : " where neither element nor radius is known, ") + source);
   spheres.warnings.push_back(
-      (all ? "no radii; each sphere" : spheres_have(whole.unknown) + " neither element nor radius; each") +
+      (all ? std::string(kNoRadii) : spheres_have(whole.unknown) + " neither element nor radius; each") +
       " gets radius " + number + ", " + source + "; " + setting_name("radius") + " sets another");
 }
 

@@ -86,6 +86,22 @@ Plane plane_of(const ordered_json& value) {
   return plane;
 }
 
+ordered_json density_json(const Density& density) {
+  ordered_json json = ordered_json::object();
+  if (density.radius) json["radius"] = *density.radius;
+  if (density.opacity) json["opacity"] = *density.opacity;
+  return json;
+}
+
+Density density_from(const ordered_json& value) {
+  Density density;
+  if (value.contains("radius")) density.radius = value.at("radius").get<double>();
+  if (value.contains("opacity")) density.opacity = value.at("opacity").get<double>();
+  if (density.radius && !(*density.radius >= 0 && std::isfinite(*density.radius))) throw std::out_of_range("radius");
+  if (density.opacity && !(*density.opacity >= 0 && *density.opacity <= 1)) throw std::out_of_range("opacity");
+  return density;
+}
+
 ordered_json fixed_json(const FixedByFilm& fixed) {
   ordered_json json{{"camera", camera_json(fixed.camera)},
                     {"range_of_style", range_json(fixed.range_of_style)},
@@ -93,6 +109,7 @@ ordered_json fixed_json(const FixedByFilm& fixed) {
   for (const ColourRange& range : fixed.ranges_of_looks) json["ranges_of_looks"].push_back(range_json(range));
   if (fixed.motion) json["motion"] = motion_json(*fixed.motion);
   if (fixed.floor) json["floor"] = plane_json(*fixed.floor);
+  if (fixed.density) json["density"] = density_json(*fixed.density);
   if (fixed.fits_each) json["fits_each"] = true;
   return json;
 }
@@ -102,6 +119,7 @@ FixedByFilm fixed_by_film_of(const ordered_json& value) {
   for (const ordered_json& range : value.at("ranges_of_looks")) fixed.ranges_of_looks.push_back(range_of(range));
   if (value.contains("motion")) fixed.motion = motion_of(value.at("motion"));
   if (value.contains("floor")) fixed.floor = plane_of(value.at("floor"));
+  if (value.contains("density")) fixed.density = density_from(value.at("density"));
   fixed.fits_each = value.value("fits_each", false);
   return fixed;
 }

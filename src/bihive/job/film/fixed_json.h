@@ -27,6 +27,9 @@ nlohmann::ordered_json plane_json(const Plane& plane);
 /// Its normal has length 1.
 Plane plane_of(const nlohmann::ordered_json& value);
 
+nlohmann::ordered_json density_json(const Density& density);
+Density density_from(const nlohmann::ordered_json& value);
+
 nlohmann::ordered_json fixed_json(const FixedByFilm& fixed);
 FixedByFilm fixed_by_film_of(const nlohmann::ordered_json& value);
 

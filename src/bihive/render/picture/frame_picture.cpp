@@ -8,7 +8,7 @@
 #include "bihive/math/elementary.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/tree_picture.h"
-#include "bihive/scene/clips.h"
+#include "bihive/scene/framed_spheres.h"
 #include "bihive/scene/framing_cell.h"
 
 namespace bihive {
@@ -129,8 +129,8 @@ bool same(const Insets& a, const Insets& b) {
 
 Camera frame_picture(const Scene& scene, const Side& side, const Lens& lens, const RenderSettings& settings) {
   if (settings.view == View::tree) return frame_tree(scene.spheres, side, lens, settings.width_px, settings.height_px);
-  const RemainingSpheres remaining(scene);
-  const SphereSet& spheres = remaining.set();
+  const FramedSpheres framed_spheres(scene, settings.fit_share);
+  const SphereSet& spheres = framed_spheres.set();
   const auto framed = [&](const Insets& insets) {
     return settings.cell_lines ? frame_with_cell(spheres, side, lens, settings.width_px, settings.height_px, insets)
                                : frame_spheres(spheres, side, lens, settings.width_px, settings.height_px, insets);

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cstddef>
 #include <utility>
 
 namespace bihive {
 namespace {
+
+constexpr std::int64_t kNotSearched = -2;
+static_assert(kNotSearched != kNothing);
 
 // Spheres are equal if centre and radius are.
 using Place = std::array<float, 4>;
@@ -19,16 +22,32 @@ Place place_in(const SphereSet& spheres, std::int64_t id) {
 
 Subset::Subset(const SphereSet& whole, std::vector<std::int64_t> ids)
     : spheres_(whole.part(ids)), ids_(std::move(ids)) {
-  by_place_.resize(ids_.size());
-  std::iota(by_place_.begin(), by_place_.end(), 0);
-  std::sort(by_place_.begin(), by_place_.end(), [this](std::int64_t a, std::int64_t b) {
-    const Place one = place_in(spheres_, a);
-    const Place other = place_in(spheres_, b);
-    return one != other ? one < other : a < b;
-  });
-  equal_.resize(static_cast<std::size_t>(whole.size()));
+  // Sort by x first: numbers beside their ids are compared much faster than spheres in their arrays.
+  std::vector<std::pair<float, std::int64_t>> by_x(ids_.size());
+  for (std::size_t i = 0; i < by_x.size(); ++i) by_x[i] = {spheres_.x()[i], static_cast<std::int64_t>(i)};
+  std::sort(by_x.begin(), by_x.end());
+  by_place_.resize(by_x.size());
+  for (std::size_t begin = 0, end = 0; begin < by_x.size(); begin = end) {
+    for (end = begin; end < by_x.size() && by_x[end].first == by_x[begin].first; ++end)
+      by_place_[end] = by_x[end].second;
+    if (end - begin == 1) continue;
+    std::sort(by_place_.begin() + static_cast<std::ptrdiff_t>(begin),
+              by_place_.begin() + static_cast<std::ptrdiff_t>(end), [this](std::int64_t a, std::int64_t b) {
+                const Place one = place_in(spheres_, a);
+                const Place other = place_in(spheres_, b);
+                return one != other ? one < other : a < b;
+              });
+  }
+
+  // The spheres of the subset equal the first one of their place; others are searched for.
+  equal_.assign(static_cast<std::size_t>(whole.size()), kNotSearched);
+  for (std::size_t i = 0, first = 0; i < by_place_.size(); ++i) {
+    if (place_in(spheres_, by_place_[i]) != place_in(spheres_, by_place_[first])) first = i;
+    equal_[static_cast<std::size_t>(ids_[static_cast<std::size_t>(by_place_[i])])] = by_place_[first];
+  }
   for (std::int64_t id = 0; id < whole.size(); ++id)
-    equal_[static_cast<std::size_t>(id)] = find(whole.stored_centre(id), whole.stored_radius(id));
+    if (std::int64_t& equal = equal_[static_cast<std::size_t>(id)]; equal == kNotSearched)
+      equal = find(whole.stored_centre(id), whole.stored_radius(id));
 }
 
 std::int64_t Subset::find(Vec3d stored_centre, double stored_radius) const {
