@@ -42,6 +42,9 @@ struct ReadOptions {
   std::array<std::int32_t, 3> replicate{1, 1, 1};    ///< copies along the cell's vectors (SphereSet::replicate)
 };
 
+/// How the warning begins where SphereFile::assumed_radii.
+constexpr std::string_view kNoRadii = "no radii; each sphere";
+
 struct SphereFile {
   SphereSet spheres;                    ///< at least one sphere, in file order or by id (docs/formats.md)
   std::string format;                   ///< "PDB", "PQR", "mmCIF", "XYZ", "GRO", "LAMMPS dump", "GSD", "CSV", "NPY"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bihive/base/readable.h"
-#include "bihive/io/assemble/unknown_radii.h"
+#include "bihive/io/read_spheres.h"
 
 namespace bihive {
 namespace {

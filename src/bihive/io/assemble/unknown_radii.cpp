@@ -13,6 +13,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/io/assemble/nearest_place.h"
 #include "bihive/io/elements.h"
+#include "bihive/io/read_spheres.h"
 
 namespace bihive {
 namespace {

@@ -4,15 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "bihive/io/raw_spheres.h"
 
 namespace bihive {
-
-/// How the warning begins where the radius of all spheres is a guess.
-constexpr std::string_view kNoRadii = "no radii; each sphere";
 
 /// Whether there is a sphere with neither radius nor known element.
 bool lacks_radii(const RawSpheres& spheres);
