@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bihive/bih/reference_builder.h"
@@ -28,11 +29,25 @@ namespace {
 
 const std::int64_t kBlocks = std::max<std::int64_t>(3, 40 / test::ray_share());
 
+// Every step-th sphere `copies` more times, at ids far from its own.
+test::World with_copies(test::World world, std::size_t step, int copies) {
+  const std::size_t count = world.x.size();
+  for (int copy = 0; copy < copies; ++copy)
+    for (std::size_t i = 0; i < count; i += step)
+      for (std::vector<float>* numbers : {&world.x, &world.y, &world.z, &world.r}) numbers->push_back(numbers->at(i));
+  world.name += ", every " + std::to_string(step) + ". " + std::to_string(copies + 1) + " times";
+  return world;
+}
+
 std::vector<test::World> worlds() {
   std::vector<test::World> all = test::degenerate_worlds();
   for (test::World& world : test::hostile_worlds(2000, 2000)) all.push_back(std::move(world));
   all.push_back(test::random_world("dense", 51, 3000, 5, 0.2, 1.0));
   all.push_back(test::random_world("one radius", 52, 4000, 20, 1, 1));
+  // Rays that exit a sphere exit those that coincide with it.
+  const test::World some = test::random_world("some radii", 55, 700, 5, 0.2, 1.0);
+  for (const auto& [step, copies] : {std::pair<std::size_t, int>{699, 1}, {10, 1}, {2, 2}, {1, 1}, {50, 20}})
+    all.push_back(with_copies(some, step, copies));
   return all;
 }
 

@@ -18,6 +18,7 @@
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/trace/beam_bounds.h"
 #include "bihive/wide/trace/beams.h"
+#include "bihive/wide/tree/left_sphere.h"
 #include "bihive/wide/wide_tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -37,8 +38,13 @@ struct alignas(64) BeamRays {
   float s_best[kBeamRays];  ///< hits beyond this are surely not the answer
   std::uint32_t
       winner_number[kBeamRays];  ///< of the nearest sure hit among the Winners (beam_winners-inl.h), or kNoWinner
-  /// Id of the sphere that the ray exits, or kNoSphere. Not written unless the span says on which spheres rays start.
+  /// Of the sphere that the ray exits, or kNoSphere: its id, or if others coincide with it, the id of one of them. Not
+  /// written unless the span says on which spheres rays start.
   std::uint32_t left_id[kBeamRays];
+  /// The spheres that rays exit and others coincide with, each surface once, and the left_id of their rays.
+  const RepeatedSphere* left_repeated[kBeamRays];
+  std::uint32_t id_of_repeated[kBeamRays];
+  int repeated_count;
   float e, pad;
   int count;   ///< rays in the block
   int major;   ///< axis along which all rays go, by at least kLeastMajor of their length
@@ -202,7 +208,46 @@ HWY_INLINE FloatMask set_up_ends(const double* t_max, double scale, Floats lengt
   return hn::Ge(end, hn::Zero(d));
 }
 
+HWY_INLINE bool same_surface(const RepeatedSphere& a, const RepeatedSphere& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.r == b.r;
+}
+
+// The same id for all rays that exit one surface.
+HWY_INLINE void unite_repeated(const std::int64_t* leaves, const WideTree& tree, BeamRays& out) {
+  for (int i = 0; i < kBeamRays; ++i) {
+    if (i > 0 && leaves[i] == leaves[i - 1]) {
+      out.left_id[i] = out.left_id[i - 1];
+      continue;
+    }
+    const RepeatedSphere* const sphere = LeftSphere(tree, leaves[i]).repeated();
+    if (sphere == nullptr) continue;
+    int k = 0;
+    while (k < out.repeated_count && !same_surface(*out.left_repeated[k], *sphere)) ++k;
+    if (k == out.repeated_count) {
+      out.left_repeated[k] = sphere;
+      out.id_of_repeated[k] = out.left_id[i];
+      ++out.repeated_count;
+    }
+    out.left_id[i] = out.id_of_repeated[k];
+  }
+}
+
+HWY_INLINE void set_up_left_spheres(const std::int64_t* leaves, const WideTree& tree, BeamRays& out) {
+  for (int i = 0; i < kBeamRays; ++i) {
+    const std::int64_t id = leaves[i];
+    out.left_id[i] = id >= 0 && id < tree.size ? static_cast<std::uint32_t>(id) : kNoSphere;
+  }
+  if (HWY_UNLIKELY(!tree.repeated.empty())) unite_repeated(leaves, tree, out);
+}
+
 }  // namespace beam_rays
+
+/// What BeamRays::left_id has for rays that exit the sphere of this slot.
+HWY_INLINE std::uint32_t left_id_of(const WideTree& tree, const BeamRays& rays, std::uint32_t slot) {
+  for (int i = 0; i < rays.repeated_count; ++i)
+    if (coincides(tree, slot, *rays.left_repeated[i])) return rays.id_of_repeated[i];
+  return static_cast<std::uint32_t>(tree.spheres.id(slot));
+}
 
 /// Prepares rays `first` to first + count - 1 (1 to 64) of a span. False: not suitable for a beam (not valid, far away,
 /// of extreme length, not all along one axis, with segments that do not start at t = 0, or going into a sphere).
@@ -235,12 +280,8 @@ HWY_INLINE bool set_up_beam(const WideTree& tree, const RaySpan& rays, std::int6
   const BeamBounds bounds(hn::GetLane(hn::MaxOfLanes(d, farthest)), tree.is_image);
   out.e = bounds.e;
   out.pad = bounds.pad;
-  if (block.leaves != nullptr) {
-    for (int i = 0; i < kBeamRays; ++i) {
-      const std::int64_t id = block.leaves[i];
-      out.left_id[i] = id >= 0 && id < tree.size ? static_cast<std::uint32_t>(id) : kNoSphere;
-    }
-  }
+  out.repeated_count = 0;
+  if (block.leaves != nullptr) beam_rays::set_up_left_spheres(block.leaves, tree, out);
   return true;
 }
 

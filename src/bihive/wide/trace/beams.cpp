@@ -121,10 +121,9 @@ HWY_EXPORT(all_hits_by_beams_on_target);
 
 namespace wide {
 
-// Ray numbers are 32-bit in pairs. If spheres coincide, ids do not tell which ones a ray exits.
+// Ray numbers are 32-bit in pairs.
 bool beams_take(const WideTree& tree, const RaySpan& rays) {
-  return tree.node_count > 0 && (rays.leaves == nullptr || tree.repeated.empty()) &&
-         rays.count <= std::numeric_limits<std::uint32_t>::max();
+  return tree.node_count > 0 && rays.count <= std::numeric_limits<std::uint32_t>::max();
 }
 
 RemainingRays closest_hits_by_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) {

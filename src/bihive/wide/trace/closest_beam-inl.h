@@ -153,7 +153,7 @@ class ClosestBeam {
   }
   HWY_INLINE beam::Candidate candidate(int k, std::uint32_t slot, float padded) const {
     return {slot,
-            kSkipOwn ? static_cast<std::uint32_t>(tree_.spheres.id(slot)) : 0,
+            kSkipOwn ? left_id_of(tree_, rays_, slot) : 0,
             {local_centre_[0][k], local_centre_[1][k], local_centre_[2][k]},
             padded,
             padded * padded};

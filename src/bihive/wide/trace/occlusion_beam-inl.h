@@ -250,7 +250,7 @@ class OcclusionBeam {
     const FloatTag d;
     const float padded = static_cast<float>(tree_.spheres.radius(slot)) + rays.e;
     const beam::Candidate sphere{slot,
-                                 static_cast<std::uint32_t>(tree_.spheres.id(slot)),
+                                 leave_spheres_ ? left_id_of(tree_, rays, slot) : 0,
                                  {tree_.spheres.x[slot], tree_.spheres.y[slot], tree_.spheres.z[slot]},
                                  padded,
                                  padded * padded};

@@ -8,6 +8,12 @@
 
 namespace bihive {
 
+/// Whether the sphere of this slot is one of those that coincide.
+inline bool coincides(const WideTree& tree, std::int64_t slot, const RepeatedSphere& sphere) {
+  return tree.spheres.x[slot] == sphere.x && tree.spheres.y[slot] == sphere.y && tree.spheres.z[slot] == sphere.z &&
+         tree.spheres.radius(slot) == double(sphere.r);
+}
+
 /// Spheres of equal centre and radius share one surface; a ray that starts on it exits all of them
 /// (geometry/scaled_ray.h). If a tree has no repeated spheres, comparing ids is enough.
 class LeftSphere {
@@ -20,11 +26,11 @@ class LeftSphere {
   }
 
   bool is_repeated() const { return repeated_ != nullptr; }
+  /// Null if no other sphere coincides with it.
+  const RepeatedSphere* repeated() const { return repeated_; }
 
   bool is(const WideTree& tree, std::int64_t slot) const {
-    if (tree.spheres.id(slot) == id_) return true;
-    return repeated_ != nullptr && tree.spheres.x[slot] == repeated_->x && tree.spheres.y[slot] == repeated_->y &&
-           tree.spheres.z[slot] == repeated_->z && tree.spheres.radius(slot) == double(repeated_->r);
+    return tree.spheres.id(slot) == id_ || (repeated_ != nullptr && coincides(tree, slot, *repeated_));
   }
 
  private:
