@@ -127,6 +127,17 @@ void keep_lines_only(RayBatch& rays) {
   rays.inside.clear();
 }
 
+// Rays said to exit the spheres that they meet first: they miss those, and all that coincide with them, wherever they
+// start.
+RayBatch exiting_what_they_meet(const SphereSet& spheres, const RayBatch& lines) {
+  const Tree tree = build_reference_tree(spheres, {8, kUnlimited});
+  RayBatch rays = lines;
+  rays.leaves.clear();
+  for (std::int64_t i = 0; i < rays.span().count; ++i)
+    rays.leaves.push_back(closest_hit(tree, spheres, lines.span().at(i)).sphere_id);
+  return rays;
+}
+
 TEST(Beam, EveryBlockIsAnsweredAsByTheReference) {
   std::uint64_t seed = 500;
   int number = 0;
@@ -151,6 +162,7 @@ TEST(Beam, EveryBlockIsAnsweredAsByTheReference) {
     check(world, "shadow", spheres, **tree, shadow.span());
     check(world, "parallel", spheres, **tree, parallel.span());
     check(world, "any", spheres, **tree, any.span());
+    check(world, "exits", spheres, **tree, exiting_what_they_meet(spheres, lines).span());
     if (testing::Test::HasFatalFailure()) return;
   }
 }
