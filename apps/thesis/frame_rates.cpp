@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "bihive/base/write_file.h"
 #include "bihive/thesis/cost_diagram.h"
@@ -37,7 +39,13 @@ std::string step_of(const TimedProgram& program, Configuration of) {
 // Rows of values.json: an assumption on which the results depend, and to what it is changed to see how much. The first
 // changes nothing.
 Json variations(const Experiment& experiment) {
-  return experiment.values.document().value("variations", Json::array());
+  static const std::set<std::string> known{"key",       "what",    "usual",  "other",       "width_px",
+                                           "height_px", "fov_deg", "radius", "corner_side", "counting"};
+  Json rows = experiment.values.document().value("variations", Json::array());
+  for (const Json& row : rows)
+    for (const auto& [key, value] : row.items())
+      if (!known.contains(key)) fail({"/variations: there is no \"" + key + "\" to vary", "values.json", 0, 0, ""});
+  return rows;
 }
 
 Counting counting_of(const Json& variation) {

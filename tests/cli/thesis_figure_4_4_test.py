@@ -25,6 +25,14 @@ class Figure44(ProgramTest):
         os.makedirs(self.path("values/figure-4.4"), exist_ok=True)
         self.write("values/figure-4.4/values.json", json.dumps(document))
 
+    def test_a_variation_of_nothing_that_there_is(self):
+        self.write_values()
+        document = json.loads(self.read("values/figure-4.4/values.json"))
+        document["variations"][0]["fov"] = 60
+        self.write("values/figure-4.4/values.json", json.dumps(document))
+        message = self.fail_with(1, "thesis", "figure-4.4", "--quick", "--out", "out", "--values", "values")
+        self.assertIn('/variations: there is no "fov" to vary', message)
+
     def run_again(self, *options):
         results = self.succeed_json("thesis", "figure-4.4", "--quick", "--out", "out", *options)
         (experiment,) = results["experiments"]
