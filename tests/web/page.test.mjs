@@ -5,10 +5,10 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { made_files, ways_in } from './page_files.mjs';
+import { made_files, points_in_a_cube, ways_in } from './page_files.mjs';
 import {
   and_settle, compare, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture, scratch,
-  set_value, settled, shown_error, source,
+  set_value, settled, shown_error, small, source,
 } from './page_kit.mjs';
 import { serve } from './page_server.mjs';
 
@@ -57,6 +57,31 @@ for (const [name, is_plain] of modes)
       const here = await saved_picture(page, 320, 200);
       assert.deepEqual(await compare(page, native, here, 0), { width: 320, height: 200, share: 0 }, scene);
     }
+    no_complaints(complaints);
+    await context.close();
+  });
+
+for (const [name, is_plain] of modes)
+  test(`150,000 points without radii, with ${name}`, async () => {
+    const { page, context, complaints } = await open_page(browser, (is_plain ? plain : server).url, small);
+    const file = join(scratch, 'many.csv');
+    writeFileSync(file, points_in_a_cube(150_000));
+    await and_settle(page, () => page.setInputFiles('#file', file));
+    await set_value(page, '#samples_per_pixel', 1);
+    assert.match(await page.textContent('#facts'), /many\.csv: 150,000 spheres/);
+    const native = native_picture(file, 'many', '--size', '96x64', '--samples', '1');
+    assert.equal((await compare(page, native, await saved_picture(page, 96, 64), 0)).share, 0);
+    no_complaints(complaints);
+    await context.close();
+  });
+
+for (const [name, is_plain] of modes)
+  test(`a figure of the molecule is verified, with ${name}`, async () => {
+    const { page, context, complaints } = await open_page(browser, (is_plain ? plain : server).url, small);
+    native_picture('demo', 'figure', '--size', '64x48', '--samples', '1');
+    await page.setInputFiles('#file', join(scratch, 'figure.png'));
+    await page.waitForFunction(() => /erified/.test(document.querySelector('#figures').textContent));
+    assert.match(await page.textContent('#figures p'), /^figure\.png: drawn by bihive .* from demo\. Verified: the same bits/);
     no_complaints(complaints);
     await context.close();
   });

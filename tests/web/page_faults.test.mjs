@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { made_files, ways_in } from './page_files.mjs';
+import { made_files, points_in_a_cube, ways_in } from './page_files.mjs';
 import {
   and_settle, assert_same_picture, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
   scratch, set_value, settled, sheet_still, shown_error, source,
@@ -338,5 +338,55 @@ test('a file that cannot be read leaves the one before: its radii are changed, a
   const state = await link_state(page);
   assert.deepEqual(state.source, { file: 'points.csv', reading: { radius: 0.25 } });
   assert.deepEqual(state.settings.camera, before, 'the user has moved it');
+  await context.close();
+});
+
+// Searches for the nearest other point, which choose the radii, once waited forever for a thread in a browser.
+test('two million points without radii', async () => {
+  const file = join(scratch, 'millions.csv');
+  writeFileSync(file, points_in_a_cube(2_000_000));
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  await and_settle(page, () => page.setInputFiles('#file', file));
+  assert.match(await page.textContent('#facts'), /millions\.csv: 2,000,000 spheres/);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('300,000 points of NPY without radii', async () => {
+  const header = `{'descr': '<f4', 'fortran_order': False, 'shape': (300000, 3), }`.padEnd(117) + '\n';
+  const start = Buffer.concat([Buffer.from('\x93NUMPY\x01\x00', 'latin1'), Buffer.from([118, 0]), Buffer.from(header)]);
+  const numbers = points_in_a_cube(300_000).trimEnd().split('\n').slice(1).flatMap((line) => line.split(',').map(Number));
+  const bytes = Buffer.concat([start, Buffer.from(new Float32Array(numbers).buffer)]);
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  await and_settle(page, () => ways_in.picker(page, { name: 'many.npy', bytes }));
+  assert.match(await page.textContent('#facts'), /many\.npy: 300,000 spheres/);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('notes stay until they are read, errors leave progress in view, and "cancelled" goes with a new try', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const picked = ({ name, bytes }) => ({ name, mimeType: 'application/octet-stream', buffer: bytes });
+  await and_settle(page, () => page.setInputFiles('#file', [made_files[0], made_files[2]].map(picked)));
+  assert.match(await page.textContent('#messages'), /Several files were chosen; this is three\.pdb/);
+  await and_settle(page, () => ways_in.picker(page, made_files[5]));
+  assert.equal(await page.locator('#messages .message').count(), 0, 'outdated');
+
+  await and_settle(page, () => page.selectOption('#built_in', 'demo'));
+  await ways_in.picker(page, { name: 'broken.csv', bytes: Buffer.from('x,y,z\n1,2,what\n') });
+  await shown_error(page);
+  await page.fill('#save_width', '4000');
+  await page.fill('#save_height', '3000');
+  await page.click('#save');
+  await page.waitForFunction(() => document.querySelector('#busy_bar').value > 0 && !document.querySelector('#busy').hidden);
+  const [progress, error] = await Promise.all(['#busy', '#errors .message'].map((one) => page.locator(one).boundingBox()));
+  assert.ok(error.y >= progress.y + progress.height || progress.y >= error.y + error.height, 'one below the other');
+  await page.click('#save_cancel');
+  await page.waitForFunction(() => /cancelled/.test(document.querySelector('#messages').textContent));
+  await page.click('#save');
+  await page.waitForFunction(() => !/cancelled/.test(document.querySelector('#messages').textContent), null, { timeout: 4000 });
+  await page.click('#save_cancel');
+  await page.waitForFunction(() => /cancelled/.test(document.querySelector('#messages').textContent));
+  no_complaints(complaints);
   await context.close();
 });

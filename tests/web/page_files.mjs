@@ -26,6 +26,17 @@ export const made_files = [
   ['one.json', 1, 'scene file', '{"bihive_scene": 1, "spheres": [[0, 0, 0, 1]]}'],
 ].map(([name, spheres, format, content]) => ({ name, spheres, format, bytes: Buffer.from(content) }));
 
+/** A CSV file of this many points without radii, no two of them in one place. */
+export function points_in_a_cube(count) {
+  const side = Math.ceil(Math.cbrt(count));
+  const lines = ['x,y,z'];
+  for (let i = 0; i < count; ++i) {
+    const [x, y, z] = [i % side, Math.floor(i / side) % side, Math.floor(i / side / side)];
+    lines.push(`${x + ((i * 7919) % 101) / 250},${y + ((i * 104729) % 103) / 250},${z}`);
+  }
+  return `${lines.join('\n')}\n`;
+}
+
 /** How a file gets into the page; by its address, it must be on the server under file/. */
 export const ways_in = {
   picker: (page, { name, bytes }) =>

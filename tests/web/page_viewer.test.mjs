@@ -6,7 +6,7 @@ import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { made_files } from './page_files.mjs';
-import { compare, folder, native_picture, open_page, scratch, settled, small, source, with_page } from './page_kit.mjs';
+import { compare, folder, native_picture, open_page, scratch, settled, shown_error, small, source, with_page } from './page_kit.mjs';
 import { serve } from './page_server.mjs';
 
 const kit = with_page();
@@ -92,6 +92,23 @@ test('after one visit the page is there without a network', async () => {
   await page.reload();
   await settled(page);
   assert.match(await page.textContent('#facts'), /1,631 spheres/);
+  await context.close();
+});
+
+test('without a network the file of `bihive web FILE` is missed, and no other scene takes its place', async () => {
+  const { name, bytes } = made_files.find(({ name }) => name === 'four.xyz');
+  const files = { '/start.json': join(scratch, 'start.json'), [`/file/${name}`]: join(scratch, name) };
+  writeFileSync(files['/start.json'], JSON.stringify({ source: { url: `file/${name}` } }));
+  writeFileSync(files[`/file/${name}`], bytes);
+  const server = await serve(folder, { files });
+  const { page, context } = await open_page(kit.browser, `${server.url}?offline`, small);
+  assert.match(await page.textContent('#facts'), /four\.xyz/);
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  server.close();
+  await page.reload();
+  assert.match(await shown_error(page), /four\.xyz could not be fetched: the server http:.* cannot be reached/);
+  assert.doesNotMatch(await page.textContent('#facts'), /spheres/);
+  assert.ok(await page.isHidden('#busy'));
   await context.close();
 });
 

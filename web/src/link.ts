@@ -50,6 +50,15 @@ const most_depth = 64;
 const is_deep = (value: unknown, left: number): boolean =>
   typeof value === 'object' && value !== null && (left === 0 || Object.values(value).some((one) => is_deep(one, left - 1)));
 
+/** The document in a text of JSON; null if it is none. */
+export function document_of(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return null;
+  }
+}
+
 /** A state from a document; null if it is not one. The module checks settings and look. */
 export function state_from(document: unknown): State | null {
   if (typeof document !== 'object' || document === null || is_deep(document, most_depth)) return null;

@@ -2,13 +2,15 @@
 import { Controls } from './controls';
 import { element, grouped } from './dom';
 import { Engine } from './engine';
+import { Figures, is_figure } from './figure';
+import type { NamedBlob } from './figure_protocol';
 import { listen_for_keys } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
 import { start_embedded, tell } from './embedded';
-import { link_of, reading_of, state_from, state_of, type State } from './link';
-import { keep_for_offline, listen_for_launches } from './offline';
-import { busy, clear_errors, clear_notes, fail, note } from './messages';
+import { document_of, link_of, reading_of, state_from, state_of, type State } from './link';
+import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
+import { begin_load, busy, end_load, fail, note } from './messages';
 import { start_panel } from './panel';
 import { PlayerBar } from './player';
 import { listen_for_pointers } from './pointer';
@@ -40,12 +42,14 @@ let look_serial = 0;
 let loading = 0; // id of the load that is awaited
 let first_frame = false; // of the newly loaded scene: it is awaited
 let chosen: OwnFiles | null = null; // the user's shown files
+let shown_files: NamedBlob[] = []; // of the shown scene, which figures may have been drawn from
+let figures: Figures;
 let refused: OwnFiles | null = null; // the user's files that were opened last and could not be read
 let asked_columns = ''; // of the load that is awaited
 let asked: Ask | null = null; // the user's own file that a link was made for
 let address_reading: Reading | undefined;
 let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
-const awaited = new Map<number, { own: OwnFiles | null; framed: boolean }>(); // loads by their ids: what holds once they are done
+const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean }>(); // loads by their ids: what holds once they are done
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -64,11 +68,12 @@ const engine = new Engine(
         busy('Drawing');
         first_frame = true;
       }
-      clear_notes();
+      end_load(answer.id);
       source = answer.source;
       const now = awaited.get(answer.id);
       awaited.delete(answer.id);
       chosen = now?.own ?? null;
+      shown_files = now?.files ?? [];
       refused = null;
       framed = now?.framed ?? true;
       show_facts(answer.facts);
@@ -79,7 +84,7 @@ const engine = new Engine(
       look = answer.look;
       looks.show_facts(answer.facts);
       looks.show(look, answer.coloured_by);
-      for (const text of answer.notes) note(text);
+      for (const text of answer.notes) note(text, answer.id);
       const { name, format, spheres, frames } = answer.facts;
       tell({ bihive: 'loaded', name, format, spheres, frames });
     },
@@ -244,15 +249,16 @@ async function open(
   const id = (loading = engine.new_id());
   first_frame = false;
   refused = null;
-  clear_notes();
-  clear_errors();
+  begin_load(id);
   picture.dataset['settled'] = 'false';
   busy(`Loading ${name}`);
   try {
     const { source: from, files } = await what;
     if (id !== loading) return; // another one was requested meanwhile
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
-    awaited.set(id, { own, framed: !state.settings?.camera?.eye });
+    const blobs = files ? [files, ...(files.trajectory ? [files.trajectory] : [])] : [];
+    const named = blobs.map(({ name, content }) => ({ name, content }));
+    awaited.set(id, { own, files: named, framed: !state.settings?.camera?.eye });
     asked_columns = String(from.reading?.columns ?? '');
     engine.send({ type: 'load', id, source: from, files, ...state });
   } catch (error) {
@@ -299,6 +305,15 @@ async function open_files(files: File[]): Promise<void> {
   }
 }
 
+// What the user dropped or picked: pictures are compared, other files are opened.
+async function take_files(files: File[]): Promise<void> {
+  const pictures = files.filter(is_figure);
+  const others = files.filter((file) => !is_figure(file));
+  if (others.length > 0) await open_files(others);
+  figures.try_again(others);
+  figures.open(pictures, others);
+}
+
 // The same file with other radii or columns. A camera that was not moved is placed again.
 function read_again(reading: Reading | undefined): void {
   if (refused) return void open(wanted_files(refused, reading), refused.file.name, null, refused);
@@ -343,9 +358,10 @@ async function first_state(): Promise<State> {
   const linked = state_of(location.hash);
   if (linked) return linked;
   const started = await fetch(new URL('start.json', document.baseURI))
-    .then((response) => (response.ok ? response.json() : null))
-    .catch(() => null);
-  return state_from(started) ?? { source: { built_in: 'demo' }, settings: null, look: null };
+    .then((response) => (response.ok ? response.text() : ''))
+    .then(remember_start)
+    .catch(remembered_start);
+  return state_from(document_of(started)) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 }
 
 // The missing features of the browser, or nothing.
@@ -370,6 +386,7 @@ async function start(): Promise<void> {
   }
   const threads_asked = new URLSearchParams(location.search).get('threads');
   const threads = globalThis.crossOriginIsolated && typeof SharedArrayBuffer !== 'undefined' && threads_asked !== '0';
+  figures = new Figures({ base: document.baseURI, threads }, () => shown_files);
   const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
   busy('Starting');
   engine.send(
@@ -391,9 +408,9 @@ async function start(): Promise<void> {
   listen_for_sources((from) => {
     forget_asked();
     void open_source(from);
-  }, (files) => void open_files(files));
+  }, (files) => void take_files(files));
   listen_for_reading(read_again);
-  listen_for_launches((files) => void open_files(files));
+  listen_for_launches((files) => void take_files(files));
   element('copy_link').addEventListener('click', () => void copy_link());
 
   const open_state = async () => {

@@ -1,10 +1,12 @@
-// The page's messages: notes that disappear by themselves, and errors that stay until the user closes them.
+// The page's messages: notes that stay as long as it takes to read them, or until the scene that they are about is
+// replaced, and errors that stay until the user closes them.
 import { element } from './dom';
 
-const note_ms = 7000;
 const most_at_once = 3;
+const tick_ms = 250;
+const reading_ms = (text: string) => 5000 + 70 * text.length; // 14 letters per second, after a while to notice it
 
-function show(box: HTMLElement, text: string, kind: string): HTMLElement {
+function show(box: HTMLElement, text: string, kind: string, on_close = () => {}): HTMLElement {
   const message = document.createElement('div');
   message.className = `message ${kind}`;
   const words = document.createElement('p');
@@ -13,29 +15,73 @@ function show(box: HTMLElement, text: string, kind: string): HTMLElement {
   close.type = 'button';
   close.textContent = '×';
   close.setAttribute('aria-label', 'Dismiss');
-  close.addEventListener('click', () => message.remove());
+  close.addEventListener('click', () => {
+    message.remove();
+    on_close();
+  });
   message.append(words, close);
   box.append(message);
-  while (box.childElementCount > most_at_once) box.firstElementChild!.remove();
   return message;
 }
 
-export function note(text: string): void {
-  const message = show(element('messages'), text, 'note');
-  setTimeout(() => message.remove(), note_ms);
+interface Note {
+  text: string;
+  load: number;
+  left_ms: number;
+  message: HTMLElement | null; // null: it waits for room
+}
+
+let notes: Note[] = [];
+let loads = 0; // begun
+let ticking = 0;
+
+function show_notes(): void {
+  for (const one of notes.slice(0, most_at_once))
+    one.message ??= show(element('messages'), one.text, 'note', () => keep_notes((other) => other !== one));
+  if (notes.length > 0 && ticking === 0) ticking = window.setInterval(tick, tick_ms);
+  if (notes.length > 0) return;
+  window.clearInterval(ticking);
+  ticking = 0;
+}
+
+function keep_notes(wanted: (one: Note) => boolean): void {
+  for (const one of notes) if (!wanted(one)) one.message?.remove();
+  notes = notes.filter(wanted);
+  show_notes();
+}
+
+// Nobody reads in a hidden page; who points at a note or has the focus there may still read it.
+function tick(): void {
+  if (document.hidden) return;
+  for (const one of notes) if (one.message && !one.message.matches(':hover, :focus-within')) one.left_ms -= tick_ms;
+  keep_notes(({ left_ms }) => left_ms > 0);
+}
+
+/** `load`: the one whose scene it is about; by itself the last that was begun. Returns what removes it. */
+export function note(text: string, load = loads): () => void {
+  const one: Note = { text, load, left_ms: reading_ms(text), message: null };
+  keep_notes((other) => other.text !== text);
+  notes.push(one);
+  show_notes();
+  return () => keep_notes((other) => other !== one);
 }
 
 export function fail(text: string): void {
-  show(element('errors'), text, 'error');
+  const box = element('errors');
+  show(box, text, 'error');
+  while (box.childElementCount > most_at_once) box.firstElementChild!.remove();
 }
 
-/** Notes belong to the shown scene: another one starts without them. */
-export function clear_notes(): void {
-  element('messages').replaceChildren();
-}
-
-export function clear_errors(): void {
+/** Another scene is requested: it starts without messages. */
+export function begin_load(load: number): void {
+  loads = load;
+  keep_notes(() => false);
   element('errors').replaceChildren();
+}
+
+/** Its scene is there: notes about those before it are outdated. */
+export function end_load(load: number): void {
+  keep_notes((one) => one.load >= load);
 }
 
 /** A bar of progress over the picture. `done` 0 to 1, or null if unknown; null text hides it. */

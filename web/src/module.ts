@@ -81,12 +81,31 @@ export interface Module extends ThesisModule {
   FS: FileSystem;
 }
 
-/** `base`: the page's own address. Throws if the module cannot be loaded. */
-export async function load_module(base: string, threads: boolean): Promise<Module> {
-  const address = new URL(`wasm/${threads ? 'threads' : 'single'}/bihive.js`, base).href;
-  const { default: create } = (await import(/* @vite-ignore */ address)) as { default: () => Promise<Module> };
+/** A figure that proves itself (bindings/wasm/figure.h). */
+export interface Figure {
+  open(name: string, record: string): string;
+  draw(progress: (done: number) => void): string;
+  compare(width: number, height: number, channels: number, bits: number, pixels: Uint8Array): string;
+}
+
+export interface FigureModule {
+  Figure: { new (): Figure; folder(): string };
+  FS: FileSystem;
+  bundled(): Uint8Array;
+  sha256_at(path: string): string;
+}
+
+async function load<M>(name: string, base: string, threads: boolean): Promise<M> {
+  const address = new URL(`wasm/${threads ? 'threads' : 'single'}/${name}.js`, base).href;
+  const { default: create } = (await import(/* @vite-ignore */ address)) as { default: () => Promise<M> };
   return create();
 }
+
+/** `base`: the page's own address. Throws if the module cannot be loaded. */
+export const load_module = (base: string, threads: boolean): Promise<Module> => load('bihive', base, threads);
+
+/** The module for figures, which only they need. */
+export const load_figure_module = (base: string, threads: boolean): Promise<FigureModule> => load('figure', base, threads);
 
 interface Failure {
   message: string;

@@ -10,6 +10,28 @@ export function keep_for_offline(): void {
   });
 }
 
+// The page's first input, under its address: without a network it cannot be asked for, and no other one may take its place.
+const start_key = () => `bihive start ${new URL('.', document.baseURI).pathname}`;
+
+/** Keeps the text of start.json, and returns it. */
+export function remember_start(text: string): string {
+  try {
+    localStorage.setItem(start_key(), text);
+  } catch {
+    // Without storage, the page without a network begins with the molecule.
+  }
+  return text;
+}
+
+/** The text of the last visit; empty if there is none. */
+export function remembered_start(): string {
+  try {
+    return localStorage.getItem(start_key()) ?? '';
+  } catch {
+    return '';
+  }
+}
+
 interface LaunchParameters {
   files: readonly { getFile(): Promise<File> }[];
 }

@@ -6,7 +6,7 @@ const crc_table = Uint32Array.from({ length: 256 }, (_, byte) => {
   return crc;
 });
 
-function crc_of(bytes: Uint8Array): number {
+export function crc_of(bytes: Uint8Array): number {
   let crc = 0xffffffff;
   for (const byte of bytes) crc = crc_table[(crc ^ byte) & 0xff]! ^ (crc >>> 8);
   return ~crc >>> 0;

@@ -15,6 +15,7 @@ export class Saving {
   private readonly start = element<HTMLButtonElement>('save');
   private readonly cancel = element<HTMLButtonElement>('save_cancel');
   private id = 0; // of the awaited picture
+  private forget_cancelled = () => {}; // the words about the last one
 
   constructor(private readonly actions: SavingActions) {
     this.start.addEventListener('click', () => this.begin());
@@ -29,6 +30,7 @@ export class Saving {
 
   private begin(): void {
     if (!this.width.reportValidity() || !this.height.reportValidity()) return;
+    this.forget_cancelled();
     this.set_running(true);
     busy('Drawing the picture');
     this.id = this.actions.draw(Number(this.width.value), Number(this.height.value));
@@ -52,7 +54,7 @@ export class Saving {
     busy(null);
     this.set_running(false);
     if (picture) save(picture, `${scene.replace(/.*\//, '').replace(/\.[^.]*$/, '')}.png`);
-    else note('The picture was cancelled.');
+    else this.forget_cancelled = note('The picture was cancelled.');
   }
 
   failed(id: number | null): void {

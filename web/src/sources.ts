@@ -22,7 +22,7 @@ async function fetched(source: Source & { url: string }): Promise<Wanted> {
     throw new Error(`${address.origin} is another server: this page only loads files of its own (${location.origin})`);
   const name = decodeURIComponent(address.pathname.split('/').pop() || address.pathname);
   const response = await fetch(address).catch(() => {
-    throw new Error(`${address.href} could not be fetched`);
+    throw new Error(`${name} could not be fetched: the server ${address.origin} cannot be reached`);
   });
   if (!response.ok) throw new Error(`${address.href}: the server answered ${response.status} ${response.statusText}`);
   return { source, files: { name, content: new Blob([await with_progress(response, name)]), trajectory: null } };

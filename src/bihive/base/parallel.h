@@ -11,7 +11,9 @@ int hardware_threads();
 
 /// Calls body(i) once for each 0 <= i < count, on at most `threads` threads (0 = hardware_threads()), in any order, and
 /// returns after all calls. If the system cannot create that many threads, fewer are used. The output of the body must
-/// depend on i alone, so that the number of threads cannot change it. The body must not throw.
+/// depend on i alone, so that the number of threads cannot change it. The body must not throw. It may call parallel_for
+/// and parallel_tasks; the own pool runs such a call on the calling thread alone, so parallel_tasks() splits work
+/// better.
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body);
 
 /// A running task adds further tasks here.

@@ -62,16 +62,25 @@ class Waiting final : public TaskList {
   int running_ = 0;
 };
 
+// Whether this thread runs the body of a call. Calls inside it create no thread: a browser starts a thread that a
+// helper asks for only when the module's first thread is idle, and that one waits for the helper.
+thread_local bool is_inside_a_call = false;
+
 // Calls work() on that many threads, including this one.
 template <class Work>
 void on_threads(std::int64_t threads, const Work& work) {
+  const auto inside = [&work] {
+    is_inside_a_call = true;
+    work();
+    is_inside_a_call = false;
+  };
   std::vector<std::thread> helpers;
   try {
-    for (std::int64_t k = 1; k < threads; ++k) helpers.emplace_back(work);
+    for (std::int64_t k = 1; k < threads; ++k) helpers.emplace_back(inside);
   } catch (const std::exception&) {
     // The system is out of threads or memory: the threads created so far do the work.
   }
-  work();
+  inside();
   for (std::thread& helper : helpers) helper.join();
 }
 
@@ -83,7 +92,7 @@ int hardware_threads() {
 
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body) {
   if (threads == 0) threads = hardware_threads();
-  if (!kHasThreads || threads == 1 || count <= 1) {
+  if (!kHasThreads || is_inside_a_call || threads == 1 || count <= 1) {
     for (std::int64_t i = 0; i < count; ++i) body(i);
     return;
   }
@@ -97,7 +106,7 @@ void parallel_for(int threads, std::int64_t count, const std::function<void(std:
 
 void parallel_tasks(int threads, const std::function<void(TaskList&)>& first) {
   if (threads == 0) threads = hardware_threads();
-  if (!kHasThreads || threads == 1) {
+  if (!kHasThreads || is_inside_a_call || threads == 1) {
     Inline list;
     first(list);
     return;

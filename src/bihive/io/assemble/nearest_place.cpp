@@ -4,10 +4,10 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "bihive/base/check.h"
-#include "bihive/base/parallel.h"
 
 namespace bihive {
 namespace {
@@ -56,6 +56,14 @@ struct NearestPlace::Search {
   }
 };
 
+// The nodes above a range of points: those that one thread made, or one node and two halves.
+struct NearestPlace::Range {
+  std::size_t first, end;
+  std::vector<Node> nodes{};
+  std::unique_ptr<Range> halves[2]{};
+  std::exception_ptr thrown{};
+};
+
 NearestPlace::NearestPlace(std::vector<Vec3d> points, const std::optional<Lattice>& lattice)
     : lattice_(lattice), points_(std::move(points)) {
   BIHIVE_CHECK(!points_.empty());
@@ -70,7 +78,9 @@ NearestPlace::NearestPlace(std::vector<Vec3d> points, const std::optional<Lattic
       }
       is_first = false;
     }
-  nodes_ = build(0, points_.size());
+  Range all{0, points_.size()};
+  parallel_tasks(0, [&](TaskList& tasks) { build(all, tasks); });
+  append(all);
 }
 
 double NearestPlace::distance_from(Vec3d from) const {
@@ -120,37 +130,39 @@ int widest_axis(Vec3d extent) {
 
 }  // namespace
 
-// The nodes above a part of the points. Where there are many, both halves are built at a time.
-std::vector<NearestPlace::Node> NearestPlace::build(std::size_t first, std::size_t end) {
-  std::vector<Node> nodes;
-  const Box box = box_of(first, end);
-  if (end - first < kFewForThreads || box.lo == box.hi) {
-    nodes.reserve((end - first) / (kMostInLeaf / 4) + 1);
-    build_into(nodes, first, end);
-    return nodes;
-  }
-  const std::size_t middle = part(first, end, widest_axis(box.hi - box.lo));
-  std::vector<Node> halves[2];
-  std::exception_ptr thrown[2];
-  parallel_for(0, 2, [&](std::int64_t half) {
-    try {
-      halves[half] = half == 0 ? build(first, middle) : build(middle, end);
-    } catch (...) {
-      thrown[half] = std::current_exception();
+// Where there are many points, both halves are built at a time.
+void NearestPlace::build(Range& range, TaskList& tasks) {
+  try {
+    const auto [first, end] = std::pair(range.first, range.end);
+    const Box box = box_of(first, end);
+    if (end - first < kFewForThreads || box.lo == box.hi) {
+      range.nodes.reserve((end - first) / (kMostInLeaf / 4) + 1);
+      build_into(range.nodes, first, end);
+      return;
     }
-  });
-  for (const std::exception_ptr& each : thrown)
-    if (each) std::rethrow_exception(each);
-  nodes.reserve(1 + halves[0].size() + halves[1].size());
-  nodes.push_back({box, 1 + halves[0].size(), first, end});
-  for (const std::vector<Node>& half : halves) {
-    const std::size_t before = nodes.size();
-    for (Node node : half) {
-      if (node.right != 0) node.right += before;
-      nodes.push_back(node);
-    }
+    const std::size_t middle = part(first, end, widest_axis(box.hi - box.lo));
+    range.nodes = {{box, 0, first, end}};
+    range.halves[0] = std::make_unique<Range>(Range{first, middle});
+    range.halves[1] = std::make_unique<Range>(Range{middle, end});
+    tasks.add([this, &left = *range.halves[0], &tasks] { build(left, tasks); });
+    build(*range.halves[1], tasks);
+  } catch (...) {
+    range.thrown = std::current_exception();
   }
-  return nodes;
+}
+
+// Appends the nodes of a range.
+void NearestPlace::append(Range& range) {
+  if (range.thrown) std::rethrow_exception(range.thrown);
+  const std::size_t at = nodes_.size();
+  for (Node node : std::exchange(range.nodes, {})) {
+    if (node.right != 0) node.right += at;
+    nodes_.push_back(node);
+  }
+  if (!range.halves[0]) return;
+  append(*range.halves[0]);
+  nodes_[at].right = nodes_.size();
+  append(*range.halves[1]);
 }
 
 void NearestPlace::build_into(std::vector<Node>& nodes, std::size_t first, std::size_t end) {

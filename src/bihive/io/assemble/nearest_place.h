@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bihive/base/parallel.h"
 #include "bihive/geometry/lattice.h"
 #include "bihive/math/vec3.h"
 
@@ -36,8 +37,10 @@ class NearestPlace {
     std::size_t first, end;  // the points of a leaf
   };
   struct Search;
+  struct Range;
 
-  std::vector<Node> build(std::size_t first, std::size_t end);
+  void build(Range& range, TaskList& tasks);
+  void append(Range& range);
   Box box_of(std::size_t first, std::size_t end) const;
   void build_into(std::vector<Node>& nodes, std::size_t first, std::size_t end);
   std::size_t part(std::size_t first, std::size_t end, int axis);
