@@ -119,7 +119,7 @@ EXCEPT = {("render", "threads"), ("film", "threads")}
 
 
 def spheres():
-    return bh.Spheres(np.arange(12.0).reshape(4, 3), radius=1, charge=[1, 2, 3, 4], cell=[20, 20, 20])
+    return bh.Spheres(np.arange(12.0).reshape(4, 3), radius=1, columns={"charge": [1, 2, 3, 4]}, cell=[20, 20, 20])
 
 
 class Arguments(ProgramTest):
@@ -193,7 +193,7 @@ class Arguments(ProgramTest):
         self.assertEqual(methods, {"closest", "occluded", "all_hits", "nearest", "within", "contains", "overlaps"})
 
     def test_spheres(self):
-        self.try_all(bh.Spheres, {"xyz": np.zeros((4, 3)), "radius": 1}, others=["charge"])
+        self.try_all(bh.Spheres, {"xyz": np.zeros((4, 3)), "radius": 1}, others=["radii", "color", "center", "diameter"])
         self.try_all(self.spheres.save, {"path": self.path("a.csv")})
         for label, value in HOSTILE.items():
             self.judge(self.spheres.__getitem__, {"key": value}, "", label) if label != "hostile" else None
