@@ -19,7 +19,7 @@ count = int(sys.argv[1]) if len(sys.argv) > 1 else 1_000_000
 rng = np.random.default_rng(36)
 places = rng.random((count, 3))
 radius = (10 / count / (4 / 3 * np.pi)) ** (1 / 3)
-spheres = bh.Spheres(places, radius=radius / 10, cell=[1, 1, 1], tenth=np.arange(count) % 10)
+spheres = bh.Spheres(places, radius=radius / 10, cell=[1, 1, 1], columns={"tenth": np.arange(count) % 10})
 directions = rng.normal(size=(count // 10, 3))
 directions /= np.linalg.norm(directions, axis=1)[:, None]
 trees = {periodic: bh.Tree(spheres, periodic=periodic, threads=1) for periodic in (False, True)}

@@ -5,7 +5,10 @@
  * Contract of every function:
  * - Arrays belong to the caller, who sees to their lengths; nothing refers to them after the return. `xyz` means x, y,
  * z of one point after the other. Ids count from 0; -1 is none.
- * - `threads`: 0 uses all that the machine has.
+ * - `threads`: how many threads a call may use, the caller's among them. 0: all that the machine has, where they pay:
+ *   a query runs on the caller's thread with fewer than 8,192 rays or with 1,024 points or fewer, and each thread gets
+ *   at least 4,096 rays. A number above 0 is what rays are shared among, 64 or more for each; points go to threads
+ *   1,024 at a time.
  * - A function that returns int returns 0, or 1 after a failure; bihive_error_text() then says what was wrong, where,
  * and what to do. Its outputs are then undefined, but a handle to be made is NULL. Nothing throws, prints or ends the
  * process.

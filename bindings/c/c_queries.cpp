@@ -33,8 +33,27 @@ struct bihive_lists {
 namespace bihive::c {
 namespace {
 
-// Number of rays per chunk.
-constexpr std::int64_t kRaysPerPart = 1 << 17;
+// Rays per chunk: at most, because each chunk is copied; at least, where all threads may be used: 4,096 rays take 50 us
+// to 4 ms, and to wake a thread takes 2 to 50; at least, where the caller asks for a number of threads: what is traced
+// together.
+constexpr std::int64_t kMostRaysPerPart = 1 << 17;
+constexpr std::int64_t kFewestRaysOfAll = 4096;
+constexpr std::int64_t kFewestRays = 64;
+
+// Rays are shared among threads in chunks of `size`; the last may be smaller.
+struct Parts {
+  std::int64_t size = 1, count = 0;
+
+  static Parts of(std::int64_t rays, int threads) {
+    const std::int64_t fewest = threads > 0 ? kFewestRays : kFewestRaysOfAll;
+    const std::int64_t workers = std::clamp<std::int64_t>(rays / fewest, 1, threads > 0 ? threads : hardware_threads());
+    // As many chunks for each thread, in whole blocks of 64 neighbours.
+    const std::int64_t of_each = (rays + workers * kMostRaysPerPart - 1) / (workers * kMostRaysPerPart);
+    const std::int64_t parts = std::max<std::int64_t>(1, workers * of_each);
+    const std::int64_t size = std::max<std::int64_t>(1, ((rays + parts - 1) / parts + 63) / 64) * 64;
+    return {size, (rays + size - 1) / size};
+  }
+};
 
 bool ready(const bihive_tree* tree, const bihive_rays* rays) {
   return tree != nullptr && rays != nullptr && rays->count >= 0 &&
@@ -76,12 +95,12 @@ class Columns {
 // Calls answer(rays, first, chunk) for all chunks of the rays, on threads.
 template <class Answer>
 int for_parts(const bihive_tree& tree, const bihive_rays& rays, int threads, const Answer& answer) {
-  const std::int64_t parts = (rays.count + kRaysPerPart - 1) / kRaysPerPart;
+  const Parts parts = Parts::of(rays.count, threads);
   std::atomic<bool> no_memory{false};
-  parallel_for(threads, parts, [&](std::int64_t part) {
+  parallel_for(threads, parts.count, [&](std::int64_t part) {
     try {
-      const std::int64_t first = part * kRaysPerPart;
-      answer(Columns(rays, tree.tree->origin, first, std::min(kRaysPerPart, rays.count - first)).span(), first, part);
+      const std::int64_t first = part * parts.size;
+      answer(Columns(rays, tree.tree->origin, first, std::min(parts.size, rays.count - first)).span(), first, part);
     } catch (const std::bad_alloc&) {
       no_memory = true;
     }
@@ -271,7 +290,8 @@ int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int thread
   *lists = nullptr;
   return guarded([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
-    std::vector<std::vector<RayHit>> of_part(static_cast<std::size_t>(rays->count / kRaysPerPart + 1));
+    const Parts parts = Parts::of(rays->count, threads);
+    std::vector<std::vector<RayHit>> of_part(static_cast<std::size_t>(parts.count));
     const int done = for_rays(
         *tree, *rays, threads,
         [&](const RaySpan& part, std::int64_t, std::int64_t number) {
@@ -292,7 +312,7 @@ int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int thread
         made->distances.push_back(hit.t);
       }
       std::vector<RayHit>().swap(hits);
-      first += kRaysPerPart;
+      first += parts.size;
     }
     for (std::size_t i = 1; i < made->begin.size(); ++i) made->begin[i] += made->begin[i - 1];
     *lists = made.release();

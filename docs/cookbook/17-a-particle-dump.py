@@ -14,5 +14,5 @@ with open("run.dump", "w") as file:
 
 s = bh.read("run.dump", radius=0.5)
 speed = np.sqrt(s["vx"] ** 2 + s["vy"] ** 2 + s["vz"] ** 2)
-s = bh.Spheres(s.xyz, radius=s.radius, speed=speed, cell=s.cell)
+s = bh.Spheres(s.xyz, radius=s.radius, cell=s.cell, columns={"speed": speed})
 bh.render(s, size=(480, 360), colour_by="speed:coolwarm", legend=True, view_from="iso", cell=True).save("17-a-particle-dump.png")

@@ -14,5 +14,5 @@ for r in np.sort(rng.pareto(2.5, 260) * 0.35 + 0.3)[::-1].clip(max=1.6):
     if len(tries):
         centres.append(tries[np.argmin(tries[:, 1])])
         radii.append(r)
-s = bh.Spheres(np.array(centres), radius=np.array(radii), size=np.array(radii))
+s = bh.Spheres(np.array(centres), radius=np.array(radii), columns={"size": np.array(radii)})
 bh.render(s, size=(480, 360), colour_by="size:cividis:0.3,1.6:log", legend=True, turn=(30, 20), ao=True).save("18-grains-by-size.png")

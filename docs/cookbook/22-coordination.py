@@ -12,5 +12,5 @@ xyz = np.concatenate([left, right])
 xyz = xyz[np.abs(xyz).max(axis=1) < 5.5] + 0.0
 tree = bh.Tree(bh.Spheres(xyz, radius=0.5))
 neighbours = tree.within(xyz, 1.2, to="centre").counts - 1
-s = bh.Spheres(xyz, radius=0.5, neighbours=neighbours)
+s = bh.Spheres(xyz, radius=0.5, columns={"neighbours": neighbours})
 bh.render(s, size=(480, 360), colour_by="neighbours:magma:3,12", legend=True, turn=(20, 25)).save("22-coordination.png")

@@ -22,5 +22,5 @@ for depth in range(6):
     if depth < 5:
         level = [(c + d * r * 4 / 3, r / 3, d) for c, r, axis in level for d in around @ turned(axis)]
 rows = np.array(rows)
-s = bh.Spheres(rows[:, :3], radius=rows[:, 3], level=rows[:, 4])
+s = bh.Spheres(rows[:, :3], radius=rows[:, 3], columns={"level": rows[:, 4]})
 bh.render(s, size=(480, 360), colour_by="level:viridis", turn=(25, 25), light="studio", background="#202428").save("28-sphereflake.png")

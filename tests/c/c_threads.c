@@ -1,10 +1,12 @@
-/* The library for C from several threads that share a tree and a scene: each answer is that of one thread. */
+/* The library for C on several threads: those that it uses itself, and those of a program that share a tree and a
+ * scene. Each answer is that of one thread. */
 #include <bihive.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 enum { kThreads = 4, kRounds = 30, kSpheres = 300, kRays = 500, kPoints = 50, kMost = 3, kSides = 2, kPixels = 24 };
 
@@ -79,6 +81,67 @@ static double at_random(unsigned* state) {
   return (double)(*state >> 8) / (1 << 24);
 }
 
+static double seconds(clockid_t clock) {
+  struct timespec now;
+  clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Processor time of all threads except this one. */
+static double of_others(void) {
+  return seconds(CLOCK_PROCESS_CPUTIME_ID) - seconds(CLOCK_THREAD_CPUTIME_ID);
+}
+
+static int ask(int query, const bihive_rays* rays, int used, double* t, int64_t* spheres, uint8_t* hidden) {
+  bihive_lists* lists = NULL;
+  int failed;
+  if (query == 0) return bihive_closest(tree, rays, used, t, spheres);
+  if (query == 1) return bihive_occluded(tree, rays, used, hidden);
+  failed = bihive_all_hits(tree, rays, used, &lists);
+  bihive_lists_free(lists);
+  return failed;
+}
+
+/* Each query uses the threads that it is given, and with 0 few rays stay on this one. */
+static int uses_threads(void) {
+  enum { kFew = 8191, kMany = 100000, kCalls = 20, kMostCalls = 3000 };
+  static const double kSome = 2e-3;
+  float* const from = malloc(3 * kMany * sizeof(float));
+  float* const along = malloc(3 * kMany * sizeof(float));
+  double* const t = malloc(kMany * sizeof(double));
+  int64_t* const spheres = malloc(kMany * sizeof(int64_t));
+  uint8_t* const hidden = malloc(kMany);
+  bihive_rays rays = {kFew, from, along, NULL, NULL, NULL, NULL, NULL};
+  int i, query, wrong = 0;
+  if (from == NULL || along == NULL || t == NULL || spheres == NULL || hidden == NULL) return 1;
+  for (i = 0; i < 3 * kMany; ++i) from[i] = origins[i % (3 * kRays)];
+  for (i = 0; i < 3 * kMany; ++i) along[i] = directions[i % (3 * kRays)];
+  for (query = 0; query < 3; ++query) wrong += ask(query, &rays, 0, t, spheres, hidden);
+  for (query = 0; query < 3; ++query) {
+    const double before = of_others();
+    for (i = 0; i < kCalls; ++i) wrong += ask(query, &rays, 0, t, spheres, hidden);
+    if (of_others() - before > kSome) {
+      fprintf(stderr, "query %d: %d rays are traced on several threads\n", query, (int)rays.count);
+      ++wrong;
+    }
+  }
+  rays.count = kMany;
+  for (query = 0; query < 3; ++query) {
+    const double before = of_others();
+    for (i = 0; i < kMostCalls && of_others() - before < kSome; ++i) wrong += ask(query, &rays, 2, t, spheres, hidden);
+    if (i == kMostCalls) {
+      fprintf(stderr, "query %d: %d rays are traced on one thread of two\n", query, (int)rays.count);
+      ++wrong;
+    }
+  }
+  free(from);
+  free(along);
+  free(t);
+  free(spheres);
+  free(hidden);
+  return wrong;
+}
+
 int main(void) {
   static double xyz[3 * kSpheres], radii[kSpheres];
   static int numbers[kThreads];
@@ -92,6 +155,7 @@ int main(void) {
   for (i = 0; i < 3 * kPoints; ++i) points[i] = 10 * at_random(&state);
   if (bihive_tree_new(xyz, radii, kSpheres, 1, &tree) != 0) wrong += 1;
   if (bihive_scene_new(xyz, radii, NULL, kSpheres, "plain", &scene) != 0) wrong += 1;
+  if (wrong == 0) wrong += uses_threads();
   if (wrong == 0) wrong += ask_tree(&expected);
   for (i = 0; i < kSides && wrong == 0; ++i) {
     wrong += bihive_scene_view_from(scene, kSideNames[i]);

@@ -182,6 +182,34 @@ class Films(ProgramTest):
             os.unlink(self.path("started"))
             self.assertEqual(sorted(os.listdir(self.folder)), ["bin", "run.xyz"])
 
+    def test_progress(self):
+        """A function gets the finished share, from 0 to 1, of every kind of film."""
+        frames = [bh.Spheres([[x, 0, 0], [0, 0, 0]], radius=1) for x in (2, 3, 4, 5)]
+        self.write("run.xyz", "".join(f"2\n\nC {x} 0 0\nO 0 0 0\n" for x in range(2, 42)))
+        for source, options, known in (
+            (frames, {}, [0.25, 0.5, 0.75, 1, 1]),
+            (frames, {"frames": slice(1, 4, 2)}, [0.5, 1, 1]),
+            (frames, {"frames": [0, 3]}, [0.5, 1, 1]),
+            ((one for one in frames), {}, [0, 0, 0, 0, 1]),
+            (Universe(), {}, [0, 0, 0, 0, 1]),  # its trajectory has no length; one of MDAnalysis has
+            (self.path("run.xyz"), {}, None),
+            ("demo", {"turntable": 360, "pictures": 3}, None),
+        ):
+            shares = []
+            bh.film(source, self.path("a.mp4"), progress=shares.append, **options, **OPTIONS)
+            self.assertEqual((shares, shares[-1]), (sorted(shares), 1))
+            self.assertTrue(all(0 <= share <= 1 for share in shares), shares)
+            if known is not None:
+                self.assertEqual(shares, known)
+
+        def stop(share):
+            raise RuntimeError("enough")
+
+        for source in (frames, self.path("run.xyz")):
+            with self.assertRaisesRegex(RuntimeError, "enough"):
+                bh.film(source, self.path("b.mp4"), progress=stop, **OPTIONS)
+        self.assertNotIn("b.mp4", os.listdir(self.folder))
+
     def test_ffmpeg_is_missing(self):
         path = os.environ["PATH"]
         self.addCleanup(os.environ.__setitem__, "PATH", path)

@@ -1,6 +1,7 @@
 """bihive.render: the bits of the command line, layers, errors, Ctrl-C, threads."""
 
 import copy
+import errno
 import os
 import pickle
 import resource
@@ -142,7 +143,7 @@ class Pictures(ProgramTest):
         self.assertTrue(deep.dtype.isnative)
 
     def test_layers(self):
-        s = bh.Spheres([[0, 0, 0], [0.5, 0, -3]], radius=1, charge=[-0.5, 7])
+        s = bh.Spheres([[0, 0, 0], [0.5, 0, -3]], radius=1, columns={"charge": [-0.5, 7]})
         picture = bh.render(s, camera=bh.Orthographic(eye=(0, 0, 10), look_at=(0, 0, 0)), size=(21, 15))
         ids, depth, normal = picture.layer("id"), picture.layer("depth"), picture.layer("normal")
         self.assertEqual((ids.dtype, ids.shape, normal.shape), (np.int64, (15, 21), (15, 21, 3)))
@@ -266,6 +267,34 @@ class Failures(ProgramTest):
             with self.assertRaises(bh.UsageError) as caught:
                 bh.render(thing)
             self.assertEqual(caught.exception.argument, "spheres")
+
+    def test_errors_of_files_are_those_of_the_system(self):
+        """Each is a FileError with the errno, and the subclass of OSError that it has."""
+        s = bh.Spheres([[0, 0, 0]], radius=1)
+        picture = bh.render(s, size=(8, 6), samples=1)
+        os.mkdir(self.path("folder"))
+        missing, folder = self.path("no/such/file"), self.path("folder")
+        for call, kind, code in [
+            (lambda: bh.read(missing), FileNotFoundError, errno.ENOENT),
+            (lambda: bh.render(missing), FileNotFoundError, errno.ENOENT),
+            (lambda: bh.verify(missing), FileNotFoundError, errno.ENOENT),
+            (lambda: bh.read(folder), IsADirectoryError, errno.EISDIR),
+            (lambda: bh.colour_map([1, 2], missing), FileNotFoundError, errno.ENOENT),
+            (lambda: bh.render(s, style=missing + ".json"), FileNotFoundError, errno.ENOENT),
+            (lambda: s.save(missing + ".csv"), FileNotFoundError, errno.ENOENT),
+            (lambda: s.save(folder, format="csv"), IsADirectoryError, errno.EISDIR),
+            (lambda: picture.save(missing + ".png"), FileNotFoundError, errno.ENOENT),
+            (lambda: picture.save(missing + ".tif"), FileNotFoundError, errno.ENOENT),
+            (lambda: picture.save(missing + ".exr"), FileNotFoundError, errno.ENOENT),
+        ]:
+            with self.assertRaises(kind) as caught:
+                call()
+            self.assertIsInstance(caught.exception, bh.FileError)
+            self.assertEqual(caught.exception.errno, code)
+            self.assertTrue(caught.exception.filename.startswith(self.folder), caught.exception)
+            again = pickle.loads(pickle.dumps(caught.exception))
+            self.assertIsInstance(again, kind)
+            self.assertEqual((str(again), again.argument), (str(caught.exception), caught.exception.argument))
 
     def test_files(self):
         with self.assertRaises(bh.FileError) as caught:
@@ -393,7 +422,13 @@ class Interrupts(ProgramTest):
         bh.render("demo", size=(640, 480), samples=16, progress=shares.append)
         self.assertEqual(shares, sorted(shares))
         self.assertTrue(all(0 <= share <= 1 for share in shares))
-        self.assertGreater(len(shares), 0)
+        self.assertEqual(shares[-1], 1)
+        for size in ((8, 6), (300, 200)):  # done before anybody looks, and in between
+            shares = []
+            bh.render("demo", size=size, samples=1, progress=shares.append)
+            self.assertEqual((shares, shares[-1]), (sorted(shares), 1))
+        with self.assertRaises(ZeroDivisionError):
+            bh.render("demo", size=(8, 6), samples=1, progress=lambda share: 1 / 0)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ class Files(ProgramTest):
     def test_every_format_is_read_again(self):
         rng = np.random.default_rng(4)
         colours = rng.uniform(size=(20, 3)).astype(np.float32)
-        s = bh.Spheres(rng.normal(size=(20, 3)), radius=rng.uniform(0.1, 1, 20), colour=colours, charge=rng.normal(size=20))
+        s = bh.Spheres(rng.normal(size=(20, 3)), radius=rng.uniform(0.1, 1, 20), colour=colours, columns={"charge": rng.normal(size=20)})
         for ending in ("extxyz", "csv", "npy", "ply"):
             path = self.path(f"a.{ending}")
             left_out = s.save(path)

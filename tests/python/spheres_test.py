@@ -5,6 +5,7 @@ import copy
 import pathlib
 import pickle
 import tempfile
+import time
 import unittest
 
 import bihive as bh
@@ -89,8 +90,8 @@ class Arrays(unittest.TestCase):
         for empty in [np.zeros((0, 3)), np.zeros((0, 4), np.float32), np.zeros((0, 3), dtype=int), []]:
             s = bh.Spheres(empty)
             self.assertEqual((len(s), s.xyz.shape, s.radius.shape), (0, (0, 3), (0,)))
-        s = bh.Spheres(np.zeros((0, 3)), radius=[], colour=np.zeros((0, 3)), charge=[])
-        self.assertEqual(len(s), 0)
+        s = bh.Spheres(np.zeros((0, 3)), radius=[], colour=np.zeros((0, 3)), columns={"charge": []})
+        self.assertEqual((len(s), s["charge"].tolist()), (0, []))
         with self.assertRaisesRegex(bh.InputError, "there are no spheres to draw"):
             bh.render(s, size=(8, 8))
         t, i = bh.Tree(s).closest([[0, 0, 0]], [1, 0, 0])
@@ -107,7 +108,7 @@ class Arrays(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "sphere 0: the radius must not be negative"):
             bh.Spheres(np.zeros((9, 3)), radius=-1)
         # Sphere without extent, and attributes that are not known, are no errors.
-        self.assertEqual(len(bh.Spheres(np.zeros((9, 3)), radius=0, charge=np.full(9, np.nan))), 9)
+        self.assertEqual(len(bh.Spheres(np.zeros((9, 3)), radius=0, columns={"charge": np.full(9, np.nan)})), 9)
 
     def test_errors_name_the_argument(self):
         xyz = np.zeros((4, 3))
@@ -134,7 +135,7 @@ class Arrays(unittest.TestCase):
             (lambda: bh.Spheres(xyz, 1, colour=np.zeros((3, 3))), "colour"),
             (lambda: bh.Spheres(xyz, 1, opacity=2), "opacity"),
             (lambda: bh.Spheres(xyz, 1, cell=np.zeros((2, 3))), "cell"),
-            (lambda: bh.Spheres(xyz, 1, charge=[1, 2]), "charge"),
+            (lambda: bh.Spheres(xyz, 1, columns={"charge": [1, 2]}), "charge"),
             (lambda: bh.Spheres(xyz, 1, columns={"x": [1, 2, 3, 4]}), "columns"),
         ]:
             with self.assertRaises(bh.UsageError) as caught:
@@ -164,7 +165,7 @@ class Attributes(unittest.TestCase):
         self.assertEqual(bh.Spheres(xyz, element="C")["element"].tolist(), [6, 6, 6])
 
     def test_columns_and_parts(self):
-        s = bh.Spheres(np.arange(30).reshape(10, 3), radius=np.arange(10), charge=np.arange(10) - 5, chain=list("AAAAABBBBB"))
+        s = bh.Spheres(np.arange(30).reshape(10, 3), radius=np.arange(10), columns={"charge": np.arange(10) - 5, "chain": list("AAAAABBBBB")})
         self.assertEqual(s.columns, ["charge", "chain"])
         part = s[bh.select(s, "chain B and charge > 1")]
         self.assertEqual(part["charge"].tolist(), [2, 3, 4])
@@ -195,14 +196,85 @@ class Attributes(unittest.TestCase):
             element=6,
             type=np.arange(20),
             cell=(1, 2, 3),
-            charge=[np.nan] + [1.0] * 19,
-            label=["a b"] * 20,
+            columns={"charge": [np.nan] + [1.0] * 19, "label": ["a b"] * 20},
         )
-        for same in [copy.copy(s), copy.deepcopy(s), pickle.loads(pickle.dumps(s)), s[:]]:
+        for same in [copy.copy(s), copy.deepcopy(s), pickle.loads(pickle.dumps(s)), s[:], s[np.ones(20, bool)], s[range(20)]]:
             self.assertEqual(same, s)
             self.assertEqual(repr(same), "<bihive.Spheres: 20 spheres, element, type, colour, opacity, charge, label>")
         self.assertNotEqual(s, s[1:])
         self.assertEqual(s.cell.tolist(), [[1, 0, 0], [0, 2, 0], [0, 0, 3], [0, 0, 0]])
+
+    def test_copies_keep_what_the_file_says(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "run.lammpstrj")
+            frame = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\nITEM: ATOMS id type x y z\n1 1 1 1 1\n2 2 3 3 3\n"
+            path.write_text(frame.format(10) + frame.format(20))
+            s, first = bh.read(path, frame=1, radius=1), bh.read(path, radius=1)
+            path = pathlib.Path(folder, "run.gro")
+            path.write_text("a t= 2.5\n1\n    1ALA     CA    1   0.000   0.000   0.000\n 1 1 1\n")
+            timed = bh.read(path, radius=1)
+        self.assertEqual((s.step, s.frames, timed.time_ps), (20, 2, 2.5))
+        self.assertNotEqual(s, first)
+        for whole in (s, timed):
+            for same in [copy.copy(whole), copy.deepcopy(whole), pickle.loads(pickle.dumps(whole)), whole[:]]:
+                self.assertEqual(same, whole)
+                facts = [(one.step, one.frames, one.time_ps, one.rules, one.format, one.name) for one in (same, whole)]
+                self.assertEqual(*facts)
+        self.assertEqual(s[1:].step, 20)
+        # A state of an earlier version has no such facts.
+        state = {key: value for key, value in s.__getstate__().items() if key not in ("frames", "time_ps", "step", "rules")}
+        old = bh.Spheres.__new__(bh.Spheres)
+        old.__setstate__(state)
+        self.assertEqual((old.step, old.frames, old.rules), (None, 1, []))
+
+    def test_positions(self):
+        s = bh.Spheres(np.arange(30).reshape(10, 3), radius=1, columns={"name": [f"n{i}" for i in range(10)]})
+        for key, expected in (
+            ([], []),
+            (np.zeros(0, int), []),
+            (np.zeros(10, bool), []),
+            (slice(5, 2), []),
+            (slice(None, None, -3), [9, 6, 3, 0]),
+            ([-1, 0, 0], [9, 0, 0]),
+            (np.array([3, 1], np.uint8), [3, 1]),
+            (np.int64(4), [4]),
+            (np.arange(10) > 7, [8, 9]),
+        ):
+            part = s[key]
+            self.assertEqual(part["name"].tolist(), [f"n{i}" for i in expected])
+            np.testing.assert_array_equal(part.xyz, s.xyz[np.array(expected, int)])
+        for key in ([10], [-11], [True], [[1, 2]], np.array([2**63], np.uint64)):
+            with self.assertRaisesRegex(IndexError, "bihive.Spheres of 10: expected "):
+                s[key]
+        for key in ([0.5], None, "a b".split(), slice("a", "b")):
+            with self.assertRaisesRegex(TypeError, "bihive.Spheres of 10 cannot be indexed by "):
+                s[key]
+
+    def test_a_part_takes_time_by_what_is_asked_for(self):
+        count = 300_000
+        texts = [f"t{i}" for i in range(count)]
+        s = bh.Spheres(np.zeros((count, 3)), radius=1, columns={"q": np.arange(count), "a": texts, "b": texts})
+
+        def best(call):
+            times = []
+            for _ in range(5):
+                begun = time.process_time()
+                call()
+                times.append(time.process_time() - begun)
+            return min(times)
+
+        all_texts = best(lambda: s["a"])
+        for call in (lambda: s["q"], lambda: s[:10], lambda: s.columns, lambda: s[[5, 7]], lambda: repr(s)):
+            self.assertLess(best(call), all_texts / 3)
+
+    def test_integers_are_exact_or_refused(self):
+        xyz = np.zeros((2, 3))
+        for exact in (2**53, -(2**53), 2**60, 7):
+            self.assertEqual(bh.Spheres(xyz, 1, columns={"id": [exact, 0]})["id"].tolist(), [exact, 0])
+        for rounded in (2**53 + 1, -(2**53) - 1, 2**63 - 1, 2**64 - 1):
+            with self.assertRaisesRegex(bh.UsageError, "^id: sphere 1: .* is beyond 2.53.*; give texts$") as caught:
+                bh.Spheres(xyz, 1, columns={"id": np.array([0, rounded], np.uint64 if rounded > 2**63 else np.int64)})
+            self.assertEqual(caught.exception.argument, "id")
 
     def test_the_arrays_are_nobody_elses(self):
         xyz = np.zeros((2, 3))
@@ -242,11 +314,42 @@ class ColourMap(unittest.TestCase):
                 bh.colour_map(values, wrong)
 
     def test_names_of_other_programs_are_no_columns(self):
-        for other, ours in (("color", "colour"), ("radii", "radius"), ("elements", "element"), ("pbc", "periodic")):
-            with self.assertRaisesRegex(bh.UsageError, f"{other}: is no argument.*did you mean {ours}") as caught:
+        for other, ours in (
+            ("opacty", "opacity"),
+            ("alpha", "opacity"),
+            ("colr", "color"),
+            ("colors", "colour"),
+            ("elements", "element"),
+            ("pbc", "periodic"),
+            ("centres_", "centres"),
+        ):
+            with self.assertRaisesRegex(bh.UsageError, f"{other}: is no argument; did you mean {ours}.*columns=") as caught:
                 bh.Spheres([[0, 0, 0]], radius=1, **{other: [1]})
             self.assertEqual(caught.exception.argument, other)
+        with self.assertRaisesRegex(bh.UsageError, r"^charge: is no argument; An attribute of your own goes into columns=\{\.\.\.\}$"):
+            bh.Spheres([[0, 0, 0]], radius=1, charge=[1])
         self.assertEqual(bh.Spheres([[0, 0, 0]], radius=1, columns={"radii": [3]})["radii"].tolist(), [3])
+
+    def test_other_spellings_of_arguments(self):
+        xyz = np.arange(6.0).reshape(2, 3)
+        s = bh.Spheres(xyz, radius=[1, 2], colour=["red", "blue"])
+        for name in ("center", "centers", "centre", "centres"):
+            self.assertEqual(bh.Spheres(**{name: xyz}, radii=[1, 2], color=["red", "blue"]), s)
+        self.assertEqual(bh.Spheres(xyz, diameter=[2, 4], colour=["red", "blue"]), s)
+        self.assertEqual(bh.Spheres(xyz, diameter=2).radius.tolist(), [1, 1])
+        for names, argument in (
+            ({"radius": 1, "radii": 1}, "radii"),
+            ({"radii": 1, "diameter": 1}, "diameter"),
+            ({"radius": 1, "colour": "red", "color": "red"}, "color"),
+            ({"radius": 1, "center": xyz}, "center"),
+        ):
+            with self.assertRaisesRegex(bh.UsageError, f"{argument}: is another name of .* leave one of them out") as caught:
+                bh.Spheres(xyz, **names)
+            self.assertEqual(caught.exception.argument, argument)
+        for names, argument in (({"center": np.zeros(4), "radius": 1}, "center"), ({"xyz": xyz, "diameter": [1]}, "diameter"), ({}, "xyz")):
+            with self.assertRaises(bh.UsageError) as caught:
+                bh.Spheres(**names)
+            self.assertEqual(caught.exception.argument, argument)
 
     def test_what_is_not_there_is_told(self):
         with self.assertWarnsRegex(bh.InputWarning, "'element Fe' takes no sphere: no sphere has element Fe; there are C, N, O, S"):

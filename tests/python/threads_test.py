@@ -21,7 +21,7 @@ RAYS = (np.zeros((200, 3), np.float32), np.random.default_rng(2).normal(size=(20
 
 def spheres(count=500):
     rng = np.random.default_rng(1)
-    return bh.Spheres(rng.uniform(-5, 5, (count, 3)), radius=0.3, charge=rng.normal(size=count), part=["a"] * count, element=6, type=2,
+    return bh.Spheres(rng.uniform(-5, 5, (count, 3)), radius=0.3, columns={"charge": rng.normal(size=count), "part": ["a"] * count}, element=6, type=2,
                       colour="red", opacity=1, cell=[20, 20, 20])
 
 
@@ -83,8 +83,9 @@ class Threads(ProgramTest):
     def test_spheres(self):
         s = spheres()
         arguments = {"__getitem__": ("charge",), "core.select": ("element C and charge > 0", "select", True), "core.written": ("csv",),
-                     "core.measured": (np.array([[0, 1, 2], [4, 3, 9]]), True), "core.statistics": ([],), "core.what_there_is": ("element Fe",)}
-        calls = calls_of(s, self.folder, arguments, left_out={"save", "core.statistics"})
+                     "core.measured": (np.array([[0, 1, 2], [4, 3, 9]]), True), "core.statistics": ([],), "core.what_there_is": ("element Fe",),
+                     "core.column": ("part",)}
+        calls = calls_of(s, self.folder, arguments, left_out={"save", "core.statistics", "core.part"})
         calls["save"] = lambda: s.save(self.path_of_thread("csv"))
         calls["subset"] = lambda: s[np.arange(100)].xyz
         calls["select"] = lambda: bh.select(s, "within 2 of (index 0)")

@@ -63,7 +63,7 @@ class FarFromZero(unittest.TestCase):
 class Queries(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.spheres = bh.Spheres(RNG.normal(size=(300, 3)), radius=RNG.random(300) * 0.2, charge=RNG.normal(size=300))
+        cls.spheres = bh.Spheres(RNG.normal(size=(300, 3)), radius=RNG.random(300) * 0.2, columns={"charge": RNG.normal(size=300)})
         cls.xyz, cls.radius = cls.spheres.xyz, cls.spheres.radius
         cls.tree = bh.Tree(cls.spheres)
 

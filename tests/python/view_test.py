@@ -25,7 +25,7 @@ class View(ProgramTest):
         self.addCleanup(os.environ.pop, "BIHIVE_PAGE")
 
     def test_spheres_from_memory(self):
-        s = bh.Spheres(np.eye(3), radius=0.5, charge=[1, 2, 3], name="three")
+        s = bh.Spheres(np.eye(3), radius=0.5, columns={"charge": [1, 2, 3]}, name="three")
         with bh.view(s, browser=False) as page:
             self.assertIn(page.url, page._repr_html_())
             start = json.loads(fetched(page.url + "start.json"))
@@ -67,6 +67,23 @@ class View(ProgramTest):
                 thread.join()
             self.assertEqual(wrong, [])
             self.assertFalse(os.path.exists(page._folder))
+
+    @unittest.skipUnless(os.path.isdir("/proc/self/fd"), "no list of open files")
+    def test_no_file_stays_open(self):
+        spheres = bh.Spheres(np.eye(3), radius=0.5)
+        bh.view(spheres, browser=False).close()
+        before = os.listdir("/proc/self/fd")
+        for _ in range(3):
+            bh.view(spheres, browser=False).close()
+        os.environ["BIHIVE_PAGE"] = self.path("nowhere")
+        errors = []
+        for _ in range(3):
+            try:
+                bh.view(spheres, browser=False)
+            except bh.Error as error:
+                errors.append(error)  # what an interpreter keeps of an exception must hold no pipe
+        self.assertEqual(len(errors), 3)
+        self.assertEqual(len(os.listdir("/proc/self/fd")), len(before))
 
     def test_what_is_wrong(self):
         with self.assertRaisesRegex(OSError, "missing.pdb"):

@@ -75,5 +75,53 @@ TEST(RayBatch, shrinks_and_is_cleared) {
   expect_plain(rays.span().at(4));
 }
 
+// Each optional array of the added span may be absent, and so may each of the batch.
+TEST(RayBatch, append_gives_every_ray_its_fields) {
+  RayBatch given;
+  for (int i = 0; i < 3; ++i) given.push_back(a_ray());
+  constexpr unsigned kFields = 16;  // a bit for each optional array
+  for (unsigned there = 0; there < kFields; ++there)
+    for (unsigned added = 0; added < kFields; ++added) {
+      RayBatch rays;
+      rays.resize(2);
+      if ((there & 1) != 0) rays.t_min.assign(2, 0.25);
+      if ((there & 2) != 0) rays.t_max.assign(2, 4);
+      if ((there & 4) != 0) rays.leaves.assign(2, 5);
+      if ((there & 8) != 0) rays.inside.assign(2, 1);
+      RaySpan span = given.span();
+      if ((added & 1) == 0) span.t_min = nullptr;
+      if ((added & 2) == 0) span.t_max = nullptr;
+      if ((added & 4) == 0) span.leaves = nullptr;
+      if ((added & 8) == 0) span.inside = nullptr;
+      rays.append(span);
+      expect_one_state(rays);
+      ASSERT_EQ(rays.size(), 5);
+      const Ray plain;
+      const Ray before = rays.span().at(1), after = rays.span().at(4);
+      EXPECT_EQ(before.t_min, (there & 1) != 0 ? 0.25 : plain.t_min);
+      EXPECT_EQ(before.t_max, (there & 2) != 0 ? 4 : plain.t_max);
+      EXPECT_EQ(before.leaves, (there & 4) != 0 ? 5 : plain.leaves);
+      EXPECT_EQ(before.inside, (there & 8) != 0);
+      EXPECT_EQ(after.origin, a_ray().origin);
+      EXPECT_EQ(after.direction, a_ray().direction);
+      EXPECT_EQ(after.t_min, (added & 1) != 0 ? 0.5 : plain.t_min);
+      EXPECT_EQ(after.t_max, (added & 2) != 0 ? 9 : plain.t_max);
+      EXPECT_EQ(after.leaves, (added & 4) != 0 ? 7 : plain.leaves);
+      EXPECT_EQ(after.inside, (added & 8) != 0);
+      // What neither has takes no memory.
+      EXPECT_EQ(rays.leaves.empty(), ((there | added) & 4) == 0);
+    }
+}
+
+TEST(RayBatch, append_nothing) {
+  RayBatch rays;
+  rays.append({});
+  EXPECT_EQ(rays.size(), 0);
+  rays.push_back(a_ray());
+  rays.append({});
+  expect_one_state(rays);
+  EXPECT_EQ(rays.size(), 1);
+}
+
 }  // namespace
 }  // namespace bihive

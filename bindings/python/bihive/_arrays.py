@@ -15,7 +15,7 @@ _MOST = 2**37  # numbers, half a terabyte of float32: only an array that repeats
 
 def as_array(name: str, value: Any) -> np.ndarray[Any, Any]:
     """Any array (buffer protocol, ``__array_interface__``, ``__array__``, DLPack on the CPU) or nested sequence."""
-    array = _as_array(name, value)
+    array = value if type(value) is np.ndarray else _as_array(name, value)
     if array.size > _MOST:
         raise bad_argument(name, f"has shape {array.shape}, more than any memory holds")
     return array

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import reprlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 __all__ = ["Error", "InputError", "UsageError", "FileError", "MissingError", "InputWarning", "failure"]
@@ -39,14 +42,59 @@ class UsageError(Error, ValueError):
 
 
 class FileError(Error, OSError):
-    """A file that cannot be opened or written; ``errno`` and ``filename`` are those of OSError."""
+    """A file that cannot be opened or written; ``errno`` and ``filename`` are those of OSError.
 
-    def __init__(self, number: int, text: str, path: str) -> None:
-        OSError.__init__(self, number, text, path)
-        self.argument = "path"
+    It is also the subclass of OSError that its errno has: ``except FileNotFoundError`` catches that of a missing file.
+
+    >>> isinstance(FileError(2, "No such file or directory", "a.pdb"), FileNotFoundError)
+    True
+    """
+
+    def __new__(cls, number: int, text: str, path: str, *, argument: str = "path") -> FileError:
+        kind = _FILE_ERRORS.get(number, cls) if cls is FileError else cls
+        return OSError.__new__(kind, number, text, path)  # type: ignore[call-arg]
+
+    def __init__(self, number: int, text: str, path: str, *, argument: str = "path") -> None:
+        OSError.__init__(self, number, safe(text), path)
+        self.argument = argument
         self.file = path
         self.line = self.column = 0
         self.hint = ""
+
+    def __reduce__(self) -> Any:
+        return FileError, (self.errno, self.strerror, self.filename), self.__dict__
+
+
+class _NotFound(FileError, FileNotFoundError):
+    pass
+
+
+class _Exists(FileError, FileExistsError):
+    pass
+
+
+class _IsFolder(FileError, IsADirectoryError):
+    pass
+
+
+class _NoFolder(FileError, NotADirectoryError):
+    pass
+
+
+class _NoPermission(FileError, PermissionError):
+    pass
+
+
+_FILE_ERRORS: dict[int, type[FileError]] = {
+    errno.ENOENT: _NotFound,
+    errno.EEXIST: _Exists,
+    errno.EISDIR: _IsFolder,
+    errno.ENOTDIR: _NoFolder,
+    errno.EACCES: _NoPermission,
+    errno.EPERM: _NoPermission,
+}
+for _kind in _FILE_ERRORS.values():  # in messages they have the name that users know
+    _kind.__name__ = _kind.__qualname__ = FileError.__name__
 
 
 class MissingError(Error, RuntimeError):
@@ -57,10 +105,14 @@ class InputWarning(UserWarning):
     """Warnings of readers and pictures."""
 
 
-def failure(kind: str, message: str, file: str, line: int, column: int, hint: str, shown: str, argument: str) -> Error:
-    """The exception of a failure in the compiled part, which calls this."""
+def failure(
+    kind: str, message: str, file: str, line: int, column: int, hint: str, shown: str, argument: str, system_code: int = 0
+) -> Error:
+    """The exception of a failure in the compiled part, which calls this. `system_code`: the errno, or 0."""
     message, hint = shortened(message, _LONGEST_MESSAGE), shortened(hint, _LONGEST_MESSAGE)
     hint = "" if hint.endswith("--help") else hint
+    if system_code != 0 and kind == "input":
+        return FileError(system_code, message + ("; " + hint if hint else ""), file, argument=argument)
     place = ":".join([shortened(file), *(str(number) for number in (line, column) if number > 0)]) if file else ""
     text = (place + ": " if place else "") + message + ("; " + hint if hint else "")
     if 0 < len(shown) <= _LONGEST_MESSAGE:
@@ -74,6 +126,18 @@ def failure(kind: str, message: str, file: str, line: int, column: int, hint: st
         column=column,
         hint=hint,
     )
+
+
+@contextmanager
+def writing(path: str) -> Iterator[None]:
+    """Makes a FileError of every failure to write this file: those that no system call reports too."""
+    try:
+        yield
+    except InputError as error:
+        raise FileError(errno.EIO, str(error), path) from None
+    except FileError as error:
+        error.argument = "path"
+        raise
 
 
 def bad_argument(argument: str, message: str, hint: str = "") -> UsageError:

@@ -11,7 +11,7 @@ from . import _bihive
 from ._adapt import is_atom_group, is_universe, spheres_of
 from ._camera import Style
 from ._checks import boolean, path_of, several
-from ._errors import FileError, MissingError, UsageError, bad_argument, found, shortened
+from ._errors import MissingError, UsageError, bad_argument, found, shortened, writing
 from ._options import option, words_of
 from ._picture import Picture
 from ._progress import Bar
@@ -35,9 +35,9 @@ _OF_PROGRAM = ["frames", "pictures", "hold_first", "hold_last", "turntable", "tu
 _FLAGS_OF_PROGRAM = ["reverse", "ping_pong"]
 
 
-def environment() -> dict[str, str]:
+def environment(**more: str) -> dict[str, str]:
     """That of the program, whose messages then name settings as Python does: radius_scale."""
-    return {**os.environ, "BIHIVE_SETTING_NAMES": "ids"}
+    return {**os.environ, "BIHIVE_SETTING_NAMES": "ids", **more}
 
 
 def program() -> str:
@@ -70,16 +70,45 @@ def _said(run: subprocess.Popen[Any]) -> tuple[Any, Any]:
             continue
 
 
+# The program's line of progress: the finished share of the film itself. Earlier steps have other names.
+_SHARE = "bihive: progress: film "
+
+
+def _read_lines(stream: Any, lines: list[str], shares: list[float]) -> None:
+    """Until the end of the stream: shares of the film, and all other lines."""
+    for line in stream:
+        if line.startswith(_SHARE):
+            shares[0] = float(line.removeprefix(_SHARE))
+        elif not line.startswith("bihive: progress: "):
+            lines.append(line)
+
+
 def _film_of_file(source: str, path: str, words: list[str], progress: Progress) -> None:
     import subprocess
+    import threading
 
     command = [program(), "film", "-o", path, *words, "--", source]
-    # The program shows its own progress, on a terminal.
-    with subprocess.Popen(
-        command, env=environment(), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace"
+    lines: list[str] = []
+    shares = [0.0]
+    with Bar(progress, "filming") as bar, subprocess.Popen(
+        command,
+        env=environment(BIHIVE_PROGRESS="shares"),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        errors="replace",
     ) as run:
+        reader = threading.Thread(target=_read_lines, args=(run.stderr, lines, shares), daemon=True)
         try:
-            said = _said(run)[1]
+            reader.start()
+            # A signal between two steps of Python does not wake an endless wait.
+            while reader.is_alive():
+                reader.join(_LOOK_S)
+                if bar is not None and reader.is_alive():
+                    bar(shares[0])
+            run.wait()
+            if bar is not None and run.returncode == 0:
+                bar(1.0)
         except BaseException:
             # The program finishes its current work, then ends. On a terminal Ctrl-C has reached it too.
             run.terminate()
@@ -88,6 +117,9 @@ def _film_of_file(source: str, path: str, words: list[str], progress: Progress) 
             except subprocess.TimeoutExpired:
                 run.kill()
             raise
+        finally:
+            reader.join(_PATIENCE_S)
+    said = "".join(lines)
     if run.returncode == 0:
         return
     errors = [line for line in said.splitlines() if line.startswith("bihive: error: ")]
@@ -131,6 +163,22 @@ def _frames_of(source: Any, atoms: Any, frames: Union[slice, Sequence[int], None
         yield spheres_of(step, "source")
 
 
+def _count_of(source: Any, frames: Union[slice, Sequence[int], None]) -> int:
+    """The number of frames, or 0 if it is not known before the last."""
+    import operator
+
+    if is_universe(source):
+        source = source.trajectory
+    elif is_atom_group(source):
+        source = source.universe.trajectory
+    try:
+        if frames is None:
+            return operator.length_hint(source, 0)
+        return len(range(*frames.indices(len(source)))) if isinstance(frames, slice) else len(frames)
+    except (TypeError, ValueError, AttributeError):
+        return 0
+
+
 def _rate(fps: Any) -> Fraction:
     from fractions import Fraction
 
@@ -159,10 +207,8 @@ class _Ffmpeg:
             raise MissingError("films are encoded by the program ffmpeg, which is not in PATH", hint="install ffmpeg")
         self._program = program
         ending = os.path.splitext(path)[1].lower()
-        try:
-            self._file = _bihive.FilmFile(path)
-        except ValueError as error:
-            raise FileError(0, str(error), path) from None
+        with writing(path):
+            self._file = _bihive.FilmFile(os.fsencode(path))
         self._path = path
         self._name = "film" + ending
         self._count = 0
@@ -226,10 +272,8 @@ class _Ffmpeg:
         if self._end() != 0:
             self._fail()
         self._check()
-        try:
+        with writing(self._path):
             self._file.place(self._name)
-        except ValueError as error:
-            raise FileError(0, str(error), self._path) from None
 
     def _end(self) -> int:
         import subprocess
@@ -303,6 +347,7 @@ def film(
         atoms, such as a list of ASE's. Camera and ranges of colours are those of the first frame.
     path: .mp4, .mov, .mkv or .webm, whole or not at all; ffmpeg must be there.
     frames: of frames in memory a slice or positions.
+    progress: as of render(); the share stays 0 until the end where the number of frames is not known before (a generator).
     Other arguments as those of render().
     """
     out = path_of("path", path)
@@ -336,7 +381,8 @@ def film(
     encoder: Optional[_Ffmpeg] = None
     count = 0
     try:
-        with Bar(progress if isinstance(progress, bool) else None, "filming"):
+        in_all = _count_of(source, frames)
+        with Bar(progress, "filming") as bar:
             for spheres in _frames_of(source, atoms, frames):
                 all_words = [*words, f"--frame={count}", "--", "spheres"]
                 # The first frame is drawn again, with the camera and the ranges that it determines for all.
@@ -346,11 +392,13 @@ def film(
                     encoder = _Ffmpeg(out, picture.size, rate)
                 encoder.add(picture)
                 count += 1
-                if callable(progress):
-                    progress(float(count))
-        if encoder is None:
-            raise bad_argument("source", "holds no frames")
-        encoder.finish()
+                if bar is not None:
+                    bar(min(count / in_all, 1.0) if in_all > 0 else 0.0)
+            if encoder is None:
+                raise bad_argument("source", "holds no frames")
+            encoder.finish()
+            if bar is not None:
+                bar(1.0)
     finally:
         if encoder is not None:
             encoder.leave()

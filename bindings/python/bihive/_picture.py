@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _bihive
 from ._checks import boolean, path_of, text_of
-from ._errors import FileError, InputError, bad_argument, found
+from ._errors import bad_argument, found, writing
 
 __all__ = ["Picture"]
 
@@ -80,23 +80,19 @@ class Picture:
         metadata = boolean("metadata", metadata)
         ending = os.path.splitext(text)[1].lower()
         if ending == ".exr":
-            try:
+            with writing(text):
                 self._core.save_exr(os.fsencode(text), "radiance" if layers is None else layers, metadata)
-            except InputError as error:
-                raise FileError(0, str(error), text) from None
             return
         is_tiff = ending in (".tif", ".tiff")
         if ending not in ("", ".png") and not is_tiff:
             raise bad_argument("path", f"save() writes PNG, TIFF and OpenEXR, not {ending}", "let it end in .png, .tif or .exr")
         if layers is not None:
             raise bad_argument("layers", f"a {'TIFF' if is_tiff else 'PNG'} holds no layers", "let the path end in .exr")
-        try:
+        with writing(text):
             if is_tiff:
                 self._core.save_tiff(os.fsencode(text), metadata)
             else:
                 self._core.save(os.fsencode(text), metadata)
-        except ValueError as error:
-            raise FileError(0, str(error), text) from None
 
     def detach(self) -> Picture:
         """Releases the scene and its tree, whose memory may be large: layer() then fails. Returns the picture."""

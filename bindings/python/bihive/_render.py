@@ -93,7 +93,7 @@ def render(
     select: a selection; all other spheres are hidden.
     looks: a Look, or several, done one after the other.
     progress: None: a bar if it takes over a second on a terminal or in a notebook, by tqdm if that is there; False: none;
-        or a function, which is called with the finished share, 0 to 1.
+        or a function, which is called with the finished share, 0 to 1, and in the end with 1.
     options: every other option of `bihive render` under its name with underscores: samples=16, shadows=False,
         background="black", ao=True, outline=2, fog=0.3, light="studio", legend=True, view="normal", crop=(0, 0, 64, 64),
         transfer="none", bits=16, threads=2, engine="reference", replicate=(2, 2, 2)... A tuple stands for numbers

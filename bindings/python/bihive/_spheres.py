@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import re
 import warnings
@@ -11,8 +12,8 @@ import numpy as np
 
 from . import _bihive
 from ._arrays import as_array, numbers, one_each, texts, whole_numbers
-from ._checks import boolean, mapping, one_of, path_of, text_of, whole_text
-from ._errors import FileError, InputError, InputWarning, bad_argument, found, shortened
+from ._checks import boolean, mapping, one_of, path_of, several, text_of, whole_text
+from ._errors import FileError, InputError, InputWarning, UsageError, bad_argument, found, shortened, writing
 from ._options import words_of
 
 __all__ = ["Spheres", "read", "convert", "select", "stats", "colour_map"]
@@ -23,6 +24,7 @@ _WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".
 _MAPS = [name + tail for name in _bihive.colour_maps() for tail in ("", "_r") if name != "okabe-ito" or not tail]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
 _TYPES = (-(2**31), 2**31 - 1)
+_OF_FRAMES = ("frames", "time_ps", "step", "rules")
 _READING = [*_bihive.reading_settings(), "count", "seed"]
 
 
@@ -39,29 +41,29 @@ def _bytes_on_screen(colours: Array) -> Array:
     return made
 
 
-def _colours(value: Any, count: int) -> Array:
-    """float32 (n, 3) of linear light."""
+def _colours(value: Any, count: int, name: str) -> Array:
+    """float32 (n, 3) of linear light. `name`: the argument's."""
     if isinstance(value, str):
-        return np.broadcast_to(_colour_of_text(value), (count, 3))
-    array = as_array("colour", value)
+        return np.broadcast_to(_colour_of_text(value, name), (count, 3))
+    array = as_array(name, value)
     if array.dtype.kind in "US" or (array.dtype.kind == "O" and array.ndim == 1 and array.size > 0):
-        names = texts("colour", array, count)
-        known = {name: _colour_of_text(name) for name in set(names)}
-        return np.array([known[name] for name in names], dtype=np.float32).reshape(count, 3)
-    array = _bytes_on_screen(array) if array.dtype == np.uint8 else numbers("colour", array)
+        values = texts(name, array, count)
+        known = {one: _colour_of_text(one, name) for one in set(values)}
+        return np.array([known[one] for one in values], dtype=np.float32).reshape(count, 3)
+    array = _bytes_on_screen(array) if array.dtype == np.uint8 else numbers(name, array)
     if array.shape == (3,):
         array = np.broadcast_to(array, (count, 3))
     if array.shape != (count, 3):
-        raise bad_argument("colour", f"expected a colour, or shape ({count}, 3), found shape {array.shape}")
+        raise bad_argument(name, f"expected a colour, or shape ({count}, 3), found shape {array.shape}")
     if count > 0 and not bool(((array >= 0) & (array <= 1)).all()):
-        raise bad_argument("colour", "expected linear light from 0 to 1", "colours of bytes must have dtype uint8")
+        raise bad_argument(name, "expected linear light from 0 to 1", "colours of bytes must have dtype uint8")
     return array
 
 
-def _colour_of_text(text: str) -> Array:
-    light = _bihive.linear_colour(whole_text("colour", text))
+def _colour_of_text(text: str, name: str = "colour") -> Array:
+    light = _bihive.linear_colour(whole_text(name, text))
     if light is None:
-        raise bad_argument("colour", f"expected a name, '#rrggbb', or numbers, found {found(text)}")
+        raise bad_argument(name, f"expected a name, '#rrggbb', or numbers, found {found(text)}")
     return np.array(light, dtype=np.float32)
 
 
@@ -114,39 +116,111 @@ def _periodic(value: Any) -> tuple[bool, bool, bool]:
     return bool(a), bool(b), bool(c)
 
 
-# Names of other programs for arguments, which would otherwise become columns.
+# Other spellings of arguments, which mean the same; a diameter is halved.
+_ALIASES = {
+    "color": "colour",
+    **dict.fromkeys(("center", "centers", "centre", "centres"), "xyz"),
+    **dict.fromkeys(("radii", "diameter"), "radius"),
+}
+# Names that other programs have for arguments.
 _OTHER_NAMES = {
-    **dict.fromkeys(("color", "colors", "colours", "rgb"), "colour"),
-    **dict.fromkeys(("radii", "radiuses"), "radius"),
+    **dict.fromkeys(("colors", "colours", "rgb", "c"), "colour"),
+    **dict.fromkeys(("positions", "points", "coordinates", "pos"), "xyz"),
+    **dict.fromkeys(("radiuses", "size", "sizes", "diameters"), "radius"),
     **dict.fromkeys(("elements", "symbols", "species"), "element"),
     **dict.fromkeys(("types",), "type"),
-    **dict.fromkeys(("alpha", "opacities"), "opacity"),
+    **dict.fromkeys(("alpha", "opacities", "transparency"), "opacity"),
     **dict.fromkeys(("box", "lattice"), "cell"),
     **dict.fromkeys(("pbc",), "periodic"),
 }
+_ARGUMENTS = ["xyz", "radius", "colour", "opacity", "element", "type", "cell", "periodic", "name", "columns"]
+
+
+def _unknown_argument(name: str) -> UsageError:
+    near = difflib.get_close_matches(name, [*_ARGUMENTS, *_ALIASES], 1)
+    meant = _OTHER_NAMES.get(name.lower()) or (near[0] if near else "")
+    hint = (f"did you mean {meant}? " if meant else "") + "An attribute of your own goes into columns={...}"
+    return bad_argument(shortened(name, 60), "is no argument", hint)
+
+
+def _by_their_own_names(given: dict[str, Any], others: dict[str, Any]) -> tuple[dict[str, Any], dict[str, str]]:
+    """The arguments with the other spellings among them; and for each of these the spelling."""
+    spelled: dict[str, str] = {}
+    for other, value in others.items():
+        own = _ALIASES.get(other)
+        if own is None:
+            raise _unknown_argument(other)
+        if value is None:
+            continue
+        if given[own] is not None:
+            raise bad_argument(other, f"is another name of {own}, which is given as {spelled.get(own, own)}", "leave one of them out")
+        given[own] = value
+        spelled[own] = other
+    return given, spelled
+
+
+def _exact_numbers(name: str, value: Any, count: int) -> Array:
+    """float64, for each sphere. Integers that float64 does not hold are refused, and not rounded."""
+    array = as_array(name, value)
+    made = np.asarray(one_each(name, array, count), dtype=np.float64)
+    if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size > 0:
+        whole = np.broadcast_to(array, (count,))
+        for position in np.flatnonzero(np.abs(made) >= 2.0**53):
+            if int(made[position]) == int(whole[position]):
+                continue
+            raise bad_argument(
+                name, f"sphere {position}: {whole[position]} is beyond 2^53, where float64 does not hold every integer", "give texts"
+            )
+    return made
+
+
+def _positions(key: Any, count: int) -> Array:
+    """int64 (n,), each from 0 to before `count`: of a slice, a mask, one position or several. Takes time by what is chosen."""
+    if isinstance(key, slice):
+        return np.arange(*key.indices(count), dtype=np.int64)
+    array = np.asarray(key)
+    if array.size == 0 and array.ndim == 1 and array.dtype.kind == "f":  # []
+        return np.zeros(0, dtype=np.int64)
+    if array.dtype.kind not in "biu":
+        raise TypeError(f"expected positions or a mask, found dtype {array.dtype}")
+    if array.ndim > 1:
+        raise IndexError(f"expected one axis of positions, found shape {array.shape}")
+    if array.dtype.kind == "b":
+        if array.shape != (count,):
+            raise IndexError(f"expected a mask of shape ({count},), found shape {array.shape}")
+        return np.flatnonzero(array)
+    array = np.atleast_1d(array)
+    bad = (array < -count) | (array >= count) if array.dtype.kind == "i" else array >= count
+    if bad.any():
+        raise IndexError(f"expected positions from {-count} to {count - 1}, found {array[bad.argmax()]}")
+    chosen: Array = array.astype(np.int64)
+    chosen[chosen < 0] += count
+    return chosen
 
 
 class Spheres:
     """Spheres with their attributes: an immutable set.
 
     xyz: float32 or float64, shape (n, 3): centres, in world units of any size; or (n, 4): and radii. Read where it lies,
-        with any strides, and rounded once to binary32 in a scale of the set's own; other real types are copied first.
-    radius: one number, or shape (n,); at least 0. Left out: the fourth column, else van der Waals radii by element.
+        with any strides, and rounded once to binary32 in a scale of the set's own; other real types are copied first. Also
+        as center, centers, centre, centres.
+    radius: one number, or shape (n,); at least 0. Left out: the fourth column, else van der Waals radii by element. Also as
+        radii, or as diameter, of which it is half.
     colour: one colour, or shape (n, 3): linear light from 0 to 1 (colour_map() makes it), uint8: as a screen shows it; or n
-        names or "#rrggbb". Left out: by element or type, else the style's.
+        names or "#rrggbb". Left out: by element or type, else the style's. Also as color.
     opacity: one number, or shape (n,): 0 (clear) to 1.
     element: atomic numbers (0: unknown) or symbols, shape (n,), or one.
     type: whole numbers, shape (n,), or one.
     cell: the periodic cell: three lengths, vectors (3, 3), or vectors and corner (4, 3).
     periodic: whether distances (selections, Tree) see the images along the cell; or three of them, one for each vector.
-    columns: further attributes by name, each of shape (n,): numbers or texts. Selections and colour_by know them. They may
-        also be arguments of their own.
+    columns: attributes of your own by name, each of shape (n,) or one number: numbers or texts. Selections and colour_by know
+        them. Integers that float64 does not hold (above 2**53) are refused: give them as texts.
 
     Raises UsageError (a ValueError) that names the argument, InputError for a coordinate or radius that is NaN, infinite,
     beyond 3.4e38 or negative; its message has the sphere's position.
 
     >>> import numpy as np
-    >>> s = Spheres(np.zeros((2, 3)), radius=[1, 2], charge=[-1, 1])
+    >>> s = Spheres(np.zeros((2, 3)), radius=[1, 2], columns={"charge": [-1, 1]})
     >>> s
     <bihive.Spheres: 2 spheres, charge>
     >>> s["charge"].tolist(), s[s["charge"] > 0].radius.tolist()
@@ -155,7 +229,7 @@ class Spheres:
 
     def __init__(
         self,
-        xyz: Any,
+        xyz: Any = None,
         radius: Any = None,
         colour: Any = None,
         opacity: Any = None,
@@ -166,25 +240,27 @@ class Spheres:
         periodic: Any = True,
         name: str = "spheres",
         columns: Optional[Mapping[str, Any]] = None,
-        **more_columns: Any,
+        **other_names: Any,
     ) -> None:
-        for other in more_columns:
-            if other in _OTHER_NAMES:
-                hint = f"did you mean {_OTHER_NAMES[other]}? A column of that name goes into columns"
-                raise bad_argument(other, "is no argument", hint)
-        places = numbers("xyz", xyz)
+        given, spelled = _by_their_own_names({"xyz": xyz, "radius": radius, "colour": colour}, other_names)
+        colour, of_radius = given["colour"], spelled.get("radius", "radius")
+        if given["xyz"] is None:
+            raise bad_argument("xyz", "is missing", "give the centres, shape (n, 3)")
+        places = numbers(spelled.get("xyz", "xyz"), given["xyz"])
         if places.shape == (0,):
             places = places.reshape(0, 3)
         if places.ndim != 2 or places.shape[1] not in (3, 4):
-            raise bad_argument("xyz", f"expected shape (n, 3) or (n, 4), found shape {places.shape}")
+            raise bad_argument(spelled.get("xyz", "xyz"), f"expected shape (n, 3) or (n, 4), found shape {places.shape}")
         count = places.shape[0]
         elements = None if element is None else _elements(element, count)
         if places.shape[1] == 4:
-            if radius is not None:
-                raise bad_argument("radius", "the fourth column of xyz holds the radii", "leave one of them out")
+            if given["radius"] is not None:
+                raise bad_argument(of_radius, "the fourth column of xyz holds the radii", "leave one of them out")
             radii = places[:, 3]
-        elif radius is not None:
-            radii = one_each("radius", radius, count)
+        elif given["radius"] is not None:
+            radii = one_each(of_radius, given["radius"], count)
+            if of_radius == "diameter":
+                radii = radii / 2
         elif elements is not None:
             radii = _radii_of(elements)
         elif count == 0:
@@ -193,8 +269,7 @@ class Spheres:
             raise bad_argument("radius", "is missing", "give one number, an array, or element")
         numbers_of: dict[str, Array] = {}
         texts_of: dict[str, list[str]] = {}
-        given = {} if columns is None else mapping("columns", columns)
-        for column, values in {**given, **more_columns}.items():
+        for column, values in ({} if columns is None else mapping("columns", columns)).items():
             if not isinstance(column, str) or not column or column in _OF_SETS:
                 raise bad_argument("columns", f"{found(column)} cannot be the name of a column")
             whole_text("columns", column)
@@ -202,13 +277,13 @@ class Spheres:
             if array.dtype.kind in "USO":
                 texts_of[column] = texts(column, array, count)
             else:
-                numbers_of[column] = np.asarray(one_each(column, array, count), dtype=np.float64)
+                numbers_of[column] = _exact_numbers(column, array, count)
         self._core = _bihive.spheres_from_arrays(
             places,
             radii,
             elements,
             None if type is None else whole_numbers("type", type, count, *_TYPES).astype(np.int32),
-            None if colour is None else np.asarray(_colours(colour, count), dtype=np.float32),
+            None if colour is None else np.asarray(_colours(colour, count, spelled.get("colour", "colour")), dtype=np.float32),
             None if opacity is None else np.asarray(_opacities(opacity, count), dtype=np.float32),
             list(numbers_of.items()),
             list(texts_of.items()),
@@ -216,6 +291,10 @@ class Spheres:
             _periodic(periodic),
             "array",
             text_of("name", name),
+            1,
+            None,
+            None,
+            [],
         )
         _warn_of(self._core)
 
@@ -254,8 +333,7 @@ class Spheres:
     @property
     def columns(self) -> list[str]:
         """The names of the attributes of spheres besides centre and radius."""
-        own = [name for name in ("element", "type", "colour", "opacity") if getattr(self._core, name) is not None]
-        return own + list(self._core.columns)
+        return self._core.attributes
 
     @property
     def name(self) -> str:
@@ -301,7 +379,7 @@ class Spheres:
         >>> import os, tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     path = os.path.join(folder, "two.csv")
-        ...     left_out = Spheres([[0, 0, 0], [1, 2, 3]], radius=0.5, charge=[-1, 1]).save(path)
+        ...     left_out = Spheres([[0, 0, 0], [1, 2, 3]], radius=0.5, columns={"charge": [-1, 1]}).save(path)
         ...     read(path)["charge"].tolist()
         [-1.0, 1.0]
         """
@@ -313,10 +391,8 @@ class Spheres:
             raise bad_argument("path", f"expected an ending of {', '.join(_WRITTEN)}", "or give format")
         chosen = _WRITTEN[ending] if format is None else one_of("format", format, _WRITTEN.values())
         content, left_out = self._core.written(chosen)
-        try:
+        with writing(text):
             _bihive.write_file(os.fsencode(text), content)
-        except ValueError as error:
-            raise FileError(0, str(error), text) from None
         return left_out
 
     def __len__(self) -> int:
@@ -326,24 +402,15 @@ class Spheres:
         """s["charge"]: an attribute as an array. s[mask], s[ids], s[a:b]: these spheres alone, as a new set."""
         if isinstance(key, str):
             return self._attribute(key)
-        state = self.__getstate__()
+        self._refuse_images()
         count = len(self)
-        ids = np.arange(count)
         try:
-            chosen = np.atleast_1d(ids[key if isinstance(key, slice) else np.asarray(key)])
+            chosen = _positions(key, count)
         except IndexError as error:
             raise IndexError(f"bihive.Spheres of {count}: {error}") from None
         except (TypeError, ValueError, RecursionError) as error:
             raise TypeError(f"bihive.Spheres of {count} cannot be indexed by {found(key)}: {shortened(str(error))}") from None
-        if chosen.ndim != 1:
-            raise IndexError(f"bihive.Spheres of {count}: expected one axis of positions, found shape {chosen.shape}")
-        for name in ("xyz", "radius", "colour", "opacity", "element", "type"):
-            if state[name] is not None:
-                state[name] = state[name][chosen]
-        state["columns"] = {name: np.asarray(values)[chosen] for name, values in state["columns"].items()}
-        made = Spheres.__new__(Spheres)
-        made.__setstate__(state)
-        return made
+        return Spheres._of(self._core.part(chosen))
 
     def __iter__(self) -> Iterator[Any]:
         raise TypeError("Spheres are not a sequence of spheres: use s.xyz and s.radius")
@@ -357,16 +424,16 @@ class Spheres:
             value = getattr(self._core, name)
             if value is not None:
                 return np.asarray(value)
-        columns = self._core.columns
-        if name == "speed" and name not in columns:
-            velocity = [columns.get(axis) for axis in ("vx", "vy", "vz")]
+        # A name with a lone surrogate has no encoding, and belongs to no column.
+        value = self._core.column(name) if _has_encoding(name) else None
+        if value is None and name == "speed":
+            velocity = [self._core.column(axis) for axis in ("vx", "vy", "vz")]
             x, y, z = (axis if isinstance(axis, np.ndarray) else None for axis in velocity)
             if x is not None and y is not None and z is not None:
                 return np.sqrt(x * x + y * y + z * z)
-        if name not in columns:
+        if value is None:
             known = ", ".join(["x", "y", "z", "radius", *self.columns])
             raise KeyError(f"there is no attribute {found(name)}; there are {shortened(known)}")
-        value = columns[name]
         return np.array(value, dtype=object) if isinstance(value, list) else np.asarray(value)
 
     def __repr__(self) -> str:
@@ -375,12 +442,15 @@ class Spheres:
         known = ", ".join(self.columns)
         return f"<bihive.Spheres: {count} sphere{'' if count == 1 else 's'}{source}{', ' + known if known else ''}>"
 
-    def __getstate__(self) -> dict[str, Any]:
-        core = self._core
-        if core.has_images:
+    def _refuse_images(self) -> None:
+        if self._core.has_images:
             raise bad_argument("replicate", "replicated spheres cannot be copied by value", "give replicate to render")
+
+    def __getstate__(self) -> dict[str, Any]:
+        self._refuse_images()
+        core = self._core
         state: dict[str, Any] = {"format": core.format, "name": core.name, "xyz": self.xyz, "radius": self.radius}
-        for name in ("element", "type", "colour", "opacity", "cell", "periodic", "columns"):
+        for name in ("element", "type", "colour", "opacity", "cell", "periodic", "columns", *_OF_FRAMES):
             state[name] = getattr(core, name)
         return state
 
@@ -443,7 +513,24 @@ def _core_of(state: dict[str, Any]) -> _bihive.Spheres:
         _periodic(state.get("periodic", True)),
         text_of("format", state["format"]),
         text_of("name", state["name"]),
+        # States of earlier versions have none of these.
+        _whole_or_none("frames", state.get("frames", 1)) or 1,
+        None if state.get("time_ps") is None else float(one_each("time_ps", state["time_ps"], 1)[0]),
+        _whole_or_none("step", state.get("step")),
+        [text_of("rules", rule) for rule in several("rules", state.get("rules", []), "sentences")],
     )
+
+
+def _whole_or_none(name: str, value: Any) -> Optional[int]:
+    return None if value is None else int(whole_numbers(name, value, 1, -(2**63), 2**63 - 1)[0])
+
+
+def _has_encoding(text: str) -> bool:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _same(a: Any, b: Any) -> bool:
@@ -540,7 +627,7 @@ def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> 
 
 def _map_text(map: Any) -> str:
     if isinstance(map, os.PathLike) or (isinstance(map, str) and map not in _MAPS and ("/" in map or "." in map)):
-        return "-".join(_bihive.colour_map_of_file(os.fspath(map)))
+        return "-".join(_bihive.colour_map_of_file(os.fsencode(path_of("map", map))))
     if isinstance(map, str) and "-" in map and map not in _MAPS:
         map = map.split("-")
     if not isinstance(map, (list, tuple)):

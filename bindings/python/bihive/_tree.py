@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -13,13 +11,15 @@ from . import _bihive
 from ._adapt import spheres_of
 from ._arrays import one_each, vectors, whole_numbers
 from ._checks import boolean, one_of, text_of
-from ._errors import InputError, bad_argument, found
+from ._errors import Error, InputError, bad_argument, found
 from ._options import words_of
 from ._spheres import Spheres
 
 __all__ = ["Tree", "Hits", "Near"]
 
 Array = np.ndarray[Any, Any]
+_ENDS = ("surface", "centre")  # of a distance
+_PLENTY = 2**28  # bytes: smaller answers fit into every machine
 
 
 class Hits(NamedTuple):
@@ -152,8 +152,11 @@ class Tree:
         cells without a hit or a t_max.
         """
         rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
-        with _t_max_needed():
-            t, ids = self._core.closest(*rays, self._images(periodic), _in_blocks(order))
+        images, in_blocks = self._images(periodic), _in_blocks(order)
+        try:
+            t, ids = self._core.closest(*rays, images, in_blocks)
+        except InputError as error:
+            raise _of_t_max(error) from None
         return t, self._positions(ids)
 
     def occluded(
@@ -170,8 +173,11 @@ class Tree:
     ) -> Array:
         """Whether each ray hits anything: bool (n,). Arguments as those of closest(); faster than that."""
         rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
-        with _t_max_needed():
-            return self._core.occluded(*rays, self._images(periodic), _in_blocks(order))
+        images, in_blocks = self._images(periodic), _in_blocks(order)
+        try:
+            return self._core.occluded(*rays, images, in_blocks)
+        except InputError as error:
+            raise _of_t_max(error) from None
 
     def all_hits(
         self,
@@ -186,8 +192,11 @@ class Tree:
     ) -> Hits:
         """Every sphere that each ray meets, where it enters. Arguments as those of closest(); periodic rays need t_max."""
         rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
-        with _t_max_needed():
-            ray, t, ids = self._core.all_hits(*rays, self._images(periodic))
+        images = self._images(periodic)
+        try:
+            ray, t, ids = self._core.all_hits(*rays, images)
+        except InputError as error:
+            raise _of_t_max(error) from None
         begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
         return Hits(ray, t, self._positions(ids), begin)
 
@@ -211,12 +220,16 @@ class Tree:
         if isinstance(k, bool) or not isinstance(k, (int, np.integer)) or k < 1:
             raise bad_argument("k", f"expected a whole number of at least 1, found {found(k)}")
         where = _points(points)
-        if 16 * where.shape[0] * int(k) > _memory():
+        if 16 * where.shape[0] * int(k) > _PLENTY and 16 * where.shape[0] * int(k) > _memory():
             raise bad_argument("k", f"the answers for {where.shape[0]} points are larger than the memory, found {found(k)}")
         most = np.inf if within is None else float(one_each("within", within, 1)[0])
         if np.isnan(most):
             raise bad_argument("within", "expected a number, found NaN")
-        distance, ids = self._core.nearest(where, int(k), most, _to_centre(to))
+        try:
+            distance, ids = self._core.nearest(where, int(k), most, _to_centre(to))
+        except InputError:
+            _check_points(where)
+            raise
         ids = self._positions(ids)
         return (distance[:, 0], ids[:, 0]) if k == 1 else (distance, ids)
 
@@ -227,7 +240,10 @@ class Tree:
             that share a point with the ball of radius r around it.
         """
         where = _points(points)
-        most = one_each("limits", limits, where.shape[0]).astype(np.float64)
+        if isinstance(limits, float):
+            most = np.full(where.shape[0], limits)
+        else:
+            most = one_each("limits", limits, where.shape[0]).astype(np.float64)
         if np.isnan(most).any():
             raise bad_argument("limits", "expected numbers, found NaN")
         return self._within("limits", where, most, to)
@@ -235,7 +251,9 @@ class Tree:
     def _within(self, name: str, where: Array, most: Array, to: str) -> Near:
         try:
             begin, ids, distance = self._core.within(where, np.ascontiguousarray(most), _to_centre(to))
-        except InputError as error:  # each image of a sphere is found, and there may be too many
+        except InputError as error:
+            _check_points(where)
+            # Each image of a sphere is found, and there may be too many.
             if self.periodic and "images" in str(error):
                 raise bad_argument(name, str(error)) from None
             raise
@@ -285,13 +303,11 @@ class Tree:
     ) -> tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]]:
         origin = vectors("origins", origins)
         direction = vectors("directions", directions)
-        counts = {array.shape[0] for array in (origin, direction) if array.ndim == 2}
-        if len(counts) > 1:
+        if origin.ndim == direction.ndim == 2 and origin.shape != direction.shape:
             raise bad_argument(
                 "directions", f"expected as many as origins, found shapes {origin.shape} and {direction.shape}"
             )
-        count = counts.pop() if counts else 1
-        limits = [None if v is None else one_each(n, v, count) for n, v in (("t_min", t_min), ("t_max", t_max))]
+        count = (origin if origin.ndim == 2 else direction).shape[0] if origin.ndim + direction.ndim > 2 else 1
         left = None
         if leaves is not None:
             most = max(len(self._spheres) - 1, 0)
@@ -301,24 +317,18 @@ class Tree:
         if inside is not None:
             into = np.ascontiguousarray(one_each("inside", inside, count) != 0).view(np.uint8)
         return (
-            np.broadcast_to(origin, (count, 3)),
-            np.broadcast_to(direction, (count, 3)),
-            limits[0],
-            limits[1],
+            _spread(origin, count),
+            _spread(direction, count),
+            None if t_min is None else one_each("t_min", t_min, count),
+            None if t_max is None else one_each("t_max", t_max, count),
             left,
             into,
         )
 
 
-@contextmanager
-def _t_max_needed() -> Iterator[None]:
+def _of_t_max(error: InputError) -> Error:
     """Names the argument when a ray of a periodic tree has no end."""
-    try:
-        yield
-    except InputError as error:
-        if "without an end" in str(error):
-            raise bad_argument("t_max", str(error)) from None
-        raise
+    return bad_argument("t_max", str(error)) if "without an end" in str(error) else error
 
 
 def _memory() -> int:
@@ -327,17 +337,32 @@ def _memory() -> int:
 
 
 def _points(points: Any) -> Array:
-    made: Array = np.ascontiguousarray(np.atleast_2d(vectors("points", points)), dtype=np.float64)
-    bad = ~(np.abs(made) <= np.finfo(np.float32).max).all(axis=1)
+    """float64 (n, 3), row by row. The compiled part refuses numbers that are none; _check_points() then says which."""
+    array = vectors("points", points)
+    if array.ndim == 1:
+        array = array.reshape(1, 3)
+    if array.dtype == np.float64 and array.flags.c_contiguous:
+        return array
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def _check_points(points: Array) -> None:
+    bad = ~(np.abs(points) <= np.finfo(np.float32).max).all(axis=1)
     if bad.any():
         first = int(bad.argmax())
-        message = f"points: point {first} must be finite and at most 3.4e38 in size, found {made[first].tolist()}"
-        raise InputError(message, argument="points")
-    return made
+        message = f"points: point {first} must be finite and at most 3.4e38 in size, found {points[first].tolist()}"
+        raise InputError(message, argument="points") from None
+
+
+def _spread(array: Array, count: int) -> Array:
+    """Shape (count, 3), of vectors or of one that all share."""
+    if array.ndim == 2:
+        return array
+    return array.reshape(1, 3) if count == 1 else np.broadcast_to(array, (count, 3))
 
 
 def _to_centre(to: str) -> bool:
-    return one_of("to", to, ("surface", "centre")) == "centre"
+    return to != "surface" if isinstance(to, str) and to in _ENDS else one_of("to", to, _ENDS) == "centre"
 
 
 def _in_blocks(order: str) -> bool:

@@ -35,13 +35,11 @@ class View:
 
     def close(self) -> None:
         """Ends the server, and releases the memory of its spheres. Idempotent."""
-        if self.is_open:
-            self._server.terminate()
-            self._server.wait()
-        for stream in (self._server.stdout, self._server.stderr):
-            if stream is not None:
-                stream.close()
+        import atexit
+
+        _end(self._server)
         _let_go(self._folder, self._descriptors)
+        atexit.unregister(self.close)
 
     def __enter__(self) -> View:
         return self
@@ -54,6 +52,16 @@ class View:
 
     def _repr_html_(self) -> str:
         return f'<a href="{self.url}" target="_blank">{self.url}</a>' if self.is_open else "closed"
+
+
+def _end(server: subprocess.Popen[str]) -> None:
+    """Ends the program and closes the pipes to it."""
+    if server.poll() is None:
+        server.terminate()
+        server.wait()
+    for stream in (server.stdout, server.stderr):
+        if stream is not None:
+            stream.close()
 
 
 def _let_go(folder: str, descriptors: list[int]) -> None:
@@ -70,15 +78,16 @@ def _let_go(folder: str, descriptors: list[int]) -> None:
 
 
 # Spheres are in memory without a name in any folder; the link to it gives the page a name to show.
-def _command_of(spheres: Spheres, folder: str) -> tuple[list[str], list[int]]:
+def _command_of(spheres: Spheres, folder: str, descriptors: list[int]) -> list[str]:
     content, _ = spheres._core.written("extxyz")
     descriptor = os.memfd_create("spheres")
+    descriptors.append(descriptor)
     with open(os.dup(descriptor), "wb") as file:
         file.write(content)
     stem = os.path.splitext(os.path.basename(spheres.name))[0][:_LONGEST_NAME] or "spheres"
     link = os.path.join(folder, f"{stem}.extxyz")
     os.symlink(f"/proc/{os.getpid()}/fd/{descriptor}", link)
-    return [link], [descriptor]
+    return [link]
 
 
 def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = None) -> View:
@@ -103,11 +112,12 @@ def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = N
     browser = "ipykernel" not in sys.modules if browser is None else boolean("browser", browser)
     folder = tempfile.mkdtemp(prefix="bihive_view_")
     descriptors: list[int] = []
+    server: Optional[subprocess.Popen[str]] = None
     try:
         if isinstance(source, (str, os.PathLike)):
             words = [check_readable(source, "source")]
         else:
-            words, descriptors = _command_of(spheres_of(source, "source"), folder)
+            words = _command_of(spheres_of(source, "source"), folder, descriptors)
         words = [program(), "web", "--json", "--port", str(port or 0), *([] if browser else ["--no-browser"]), "--", *words]
         server = subprocess.Popen(words, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert server.stdout is not None and server.stderr is not None
@@ -117,9 +127,11 @@ def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = N
             errors = [one for one in server.stderr.read().splitlines() if one.startswith("bihive: error: ")]
             text = errors[-1].removeprefix("bihive: error: ") if errors else f"bihive web ended with {code}"
             raise {1: InputError, 3: MissingError}.get(code, UsageError)(text)
+        made = View(server, json.loads(line)["url"], folder, descriptors)
     except BaseException:
+        if server is not None:
+            _end(server)
         _let_go(folder, descriptors)
         raise
-    made = View(server, json.loads(line)["url"], folder, descriptors)
     atexit.register(made.close)
     return made

@@ -33,7 +33,7 @@ void raise(const Failure& failure) {
     const py::object made =
         py::module_::import("bihive._errors")
             .attr("failure")(kind_of(failure.code), escaped(error.message), file, error.line, error.column,
-                             escaped(error.hint), escaped_lines(failure.shown), failure.setting);
+                             escaped(error.hint), escaped_lines(failure.shown), failure.setting, error.system_code);
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   } catch (py::error_already_set& other) {
     other.restore();

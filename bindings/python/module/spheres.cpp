@@ -74,7 +74,9 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
                                   const std::vector<std::pair<std::string, Array<double>>>& numbers,
                                   const std::vector<std::pair<std::string, std::vector<std::string>>>& texts,
                                   const std::optional<Array<double>>& cell, const std::array<bool, 3>& periodic,
-                                  const std::string& format, const std::string& name) {
+                                  const std::string& format, const std::string& name, std::int64_t frames,
+                                  std::optional<double> time_ps, std::optional<std::int64_t> step,
+                                  const std::vector<std::string>& rules) {
   const py::ssize_t count = xyz.ndim() == 2 && xyz.shape(1) >= 3 ? xyz.shape(0) : -1;
   check_size("radius", radius, count);
   if (element) check_size("element", *element, count);
@@ -108,7 +110,41 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
     if (std::string why = Lattice::why_none(stated); !why.empty()) made->file.warnings.push_back(std::move(why));
   }
   made->file.format = format;
+  made->file.frames = frames;
+  made->file.time_ps = time_ps;
+  made->file.step = step;
+  made->file.rules = rules;
   made->name = name;
+  return made;
+}
+
+// The spheres of these ids, which are in range, with all that is known of the whole. They are rounded again, as those
+// of arrays are: relative to an origin of their own.
+SharedSpheres part_of(const Spheres& whole, const Array<std::int64_t>& positions) {
+  const std::vector<std::int64_t> ids = vector_from<std::int64_t>(positions);
+  const py::gil_scoped_release unlocked;
+  const SphereSet& set = whole.file.spheres;
+  std::array<std::vector<double>, 4> columns;
+  for (std::vector<double>& column : columns) column.reserve(ids.size());
+  for (const std::int64_t id : ids) {
+    const Vec3d centre = set.centre(id);
+    for (std::size_t axis = 0; axis < 3; ++axis) columns[axis].push_back(centre[static_cast<int>(axis)]);
+    columns[3].push_back(set.radius(id));
+  }
+  auto made = std::make_shared<Spheres>();
+  SphereFile& file = made->file;
+  const auto view = [&](std::size_t column) { return NumbersView::of(columns[column]); };
+  file.spheres = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
+  file.spheres.attributes() = set.attributes().part(ids);
+  file.spheres.cell() = set.cell();
+  file.format = whole.file.format;
+  file.frames = whole.file.frames;
+  file.rules = whole.file.rules;
+  file.assemblies = whole.file.assemblies;
+  file.time_ps = whole.file.time_ps;
+  file.step = whole.file.step;
+  file.recentred_by = whole.file.recentred_by;
+  made->name = whole.name;
   return made;
 }
 
@@ -184,18 +220,55 @@ py::object colours_or_none(const Spheres& spheres) {
   return array_from<float>(std::move(flat), {static_cast<py::ssize_t>(colours.size()), 3});
 }
 
-py::dict columns(const Spheres& spheres) {
+// A label and its number have the same name: `type` of LAMMPS.
+std::string name_of_texts(const SphereAttributes& attributes, const NamedTexts& column) {
+  return attributes.find_numbers(column.name) != nullptr ? column.name + "_text" : column.name;
+}
+
+py::list texts_of_spheres(const NamedTexts& column) {
+  std::vector<py::str> distinct;
+  distinct.reserve(column.texts.size());
+  for (const std::string& text : column.texts) distinct.emplace_back(text);
+  py::list texts(column.text_of_sphere.size());
+  for (std::size_t i = 0; i < column.text_of_sphere.size(); ++i)
+    texts[i] = distinct[static_cast<std::size_t>(column.text_of_sphere[i])];
+  return texts;
+}
+
+std::vector<std::string> column_names(const Spheres& spheres) {
   const SphereAttributes& attributes = spheres.file.spheres.attributes();
+  std::vector<std::string> names;
+  for (const NamedNumbers& column : attributes.numbers) names.push_back(column.name);
+  for (const NamedTexts& column : attributes.texts) names.push_back(name_of_texts(attributes, column));
+  return names;
+}
+
+// Numbers as an array, texts as a list. None: there is no such column.
+py::object column_or_none(const Spheres& spheres, const std::string& name) {
+  const SphereAttributes& attributes = spheres.file.spheres.attributes();
+  if (const NamedNumbers* const column = attributes.find_numbers(name))
+    return array_from<double>(column->values, {static_cast<py::ssize_t>(column->values.size())});
+  for (const NamedTexts& column : attributes.texts)
+    if (name_of_texts(attributes, column) == name) return texts_of_spheres(column);
+  return py::none();
+}
+
+py::dict columns(const Spheres& spheres) {
   py::dict made;
-  for (const NamedNumbers& column : attributes.numbers) made[py::str(column.name)] = array_or_none(column.values);
-  for (const NamedTexts& column : attributes.texts) {
-    // A label and its number have the same name: `type` of LAMMPS.
-    const std::string name = made.contains(py::str(column.name)) ? column.name + "_text" : column.name;
-    py::list texts;
-    for (std::size_t i = 0; i < column.text_of_sphere.size(); ++i) texts.append(column.of(i));
-    made[py::str(name)] = texts;
-  }
+  for (const std::string& name : column_names(spheres)) made[py::str(name)] = column_or_none(spheres, name);
   return made;
+}
+
+// Those with an entry for each sphere.
+std::vector<std::string> attribute_names(const Spheres& spheres) {
+  const SphereAttributes& attributes = spheres.file.spheres.attributes();
+  std::vector<std::string> names;
+  if (!attributes.element.empty()) names.emplace_back("element");
+  if (!attributes.type.empty()) names.emplace_back("type");
+  if (!attributes.colour.empty()) names.emplace_back("colour");
+  if (!attributes.opacity.empty()) names.emplace_back("opacity");
+  for (std::string& name : column_names(spheres)) names.push_back(std::move(name));
+  return names;
 }
 
 py::object cell_or_none(const Spheres& spheres) {
@@ -346,6 +419,9 @@ void bind_spheres(py::module_& module) {
       .def_property_readonly("opacity",
                              [](const Spheres& s) { return array_or_none(s.file.spheres.attributes().opacity); })
       .def_property_readonly("columns", columns)
+      .def_property_readonly("attributes", attribute_names)
+      .def("column", column_or_none)
+      .def("part", part_of)
       .def_property_readonly("cell", cell_or_none)
       .def_property_readonly("periodic", periodic)
       .def_property_readonly(

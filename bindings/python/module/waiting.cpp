@@ -55,6 +55,8 @@ void wait_for(const std::function<void(Work&)>& work, const py::object& progress
   }
   if (of_caller) std::rethrow_exception(of_caller);
   if (of_work) std::rethrow_exception(of_work);
+  // The work is done, and the caller has Python's lock.
+  if (!progress.is_none()) progress(1.0);
 }
 
 bool SignalWatch::cancelled() {

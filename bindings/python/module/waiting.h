@@ -20,8 +20,8 @@ struct Work {
 };
 
 /// Does the work on a thread of its own. The calling thread waits, and several times per second it checks for signals
-/// and calls `progress` (None, or a function of the finished share). An exception of either cancels the work, and is
-/// thrown after its end.
+/// and calls `progress` (None, or a function of the finished share), in the end with 1. An exception of either cancels
+/// the work, and is thrown after its end.
 void wait_for(const std::function<void(Work&)>& work, const pybind11::object& progress);
 
 /// For work in short pieces on several threads, the calling one among them: it checks for signals between two pieces.

@@ -137,7 +137,7 @@ Result<OutputPlace> open_descriptor(const std::string& given, int descriptor) {
 }  // namespace
 
 Error system_error(const std::string& what, const std::string& path, int code, const std::string& hint) {
-  return {what + ": " + std::strerror(code), path, 0, 0, hint};
+  return {what + ": " + std::strerror(code), path, 0, 0, hint, code};
 }
 
 Result<OutputPlace> find_output(const std::string& given) {
@@ -170,7 +170,7 @@ Result<OutputPlace> find_output(const std::string& given) {
 
   // Examine what is there.
   if (exists) {
-    if (S_ISDIR(info.st_mode)) return Error{"is a folder", given, 0, 0, "name a file in it"};
+    if (S_ISDIR(info.st_mode)) return Error{"is a folder", given, 0, 0, "name a file in it", EISDIR};
     if (::access(place.path.c_str(), W_OK) != 0) return system_error("cannot be written", given, errno);
     place.mode = info.st_mode & 0777;
     place.user = info.st_uid;
@@ -180,7 +180,7 @@ Result<OutputPlace> find_output(const std::string& given) {
     place.kind = S_ISREG(info.st_mode) ? OutputPlace::Kind::replaced : OutputPlace::Kind::stream;
     if (place.kind == OutputPlace::Kind::stream) return place;
   } else if (place.name.empty()) {
-    return Error{"is a folder", given, 0, 0, "name a file in it"};
+    return Error{"is a folder", given, 0, 0, "name a file in it", EISDIR};
   }
   if (Status status = check_replacement(given, folder, place); !status) return status.error();
   return place;

@@ -46,7 +46,7 @@ Result<std::string> read_open_file(int file, const std::string& name, bool* grew
   if (grew != nullptr) *grew = false;
   struct stat info {};
   if (::fstat(file, &info) != 0) return system_error("cannot be read", name, errno);
-  if (S_ISDIR(info.st_mode)) return Error{"is a folder, not a file", name, 0, 0, "name a file"};
+  if (S_ISDIR(info.st_mode)) return Error{"is a folder, not a file", name, 0, 0, "name a file", EISDIR};
 
   // The size at the beginning counts: a file that grows faster than it is read would have no end. Files of /proc, pipes
   // and devices state no size.

@@ -17,4 +17,8 @@ std::string Error::to_string() const {
   return escaped(text);
 }
 
+void detail::value_of_failed_result(const Error& error) {
+  check_failed(BIHIVE_FILE_NAME_, __LINE__, "value() of a Result that holds an error: " + error.to_string());
+}
+
 }  // namespace bihive

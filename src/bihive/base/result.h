@@ -19,14 +19,21 @@ struct Error {
   std::string file;     ///< the file as the user named it; may be empty
   std::int64_t line = 0;
   std::int64_t column = 0;
-  std::string hint;  ///< advice for the user, one line; may be empty
+  std::string hint;     ///< advice for the user, one line; may be empty
+  int system_code = 0;  ///< errno of the system call that failed; 0: none did. `message` has its text
 
   /// "file:line:column: message; hint" without the unknown parts. Always one line, without control characters
   /// (base/readable.h: escaped()).
   std::string to_string() const;
 };
 
-/// Either a T or an Error. Asking for the absent one is a programmer's error and ends the program.
+namespace detail {
+/// Prints the error, and ends the program.
+[[noreturn]] void value_of_failed_result(const Error& error);
+}  // namespace detail
+
+/// Either a T or an Error. Asking for the absent one is a programmer's error and ends the program; where the value is
+/// absent, it prints the error first.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -37,11 +44,11 @@ class [[nodiscard]] Result {
   explicit operator bool() const { return ok(); }
 
   T& value() {
-    BIHIVE_CHECK(ok());
+    if (!ok()) detail::value_of_failed_result(error());
     return *std::get_if<0>(&state_);
   }
   const T& value() const {
-    BIHIVE_CHECK(ok());
+    if (!ok()) detail::value_of_failed_result(error());
     return *std::get_if<0>(&state_);
   }
   T* operator->() { return &value(); }

@@ -17,6 +17,29 @@ const Column* column_called(const std::vector<Column>& columns, std::string_view
   return found == columns.end() ? nullptr : &*found;
 }
 
+template <class T>
+std::vector<T> entries_of_part(const std::vector<T>& values, const std::vector<std::int64_t>& ids) {
+  std::vector<T> made;
+  if (values.empty()) return made;
+  made.reserve(ids.size());
+  for (const std::int64_t id : ids) made.push_back(values[static_cast<std::size_t>(id)]);
+  return made;
+}
+
+// With the texts that are left alone: each sphere of the whole may have its own.
+NamedTexts texts_of_part(const NamedTexts& whole, const std::vector<std::int64_t>& ids) {
+  NamedTexts made{whole.name, {}, {}};
+  made.text_of_sphere.reserve(ids.size());
+  std::unordered_map<std::int32_t, std::int32_t> place_of;
+  for (const std::int64_t id : ids) {
+    const std::int32_t before = whole.text_of_sphere[static_cast<std::size_t>(id)];
+    const auto [place, is_new] = place_of.emplace(before, static_cast<std::int32_t>(made.texts.size()));
+    if (is_new) made.texts.push_back(whole.texts[static_cast<std::size_t>(before)]);
+    made.text_of_sphere.push_back(place->second);
+  }
+  return made;
+}
+
 }  // namespace
 
 void TextCollector::add(std::string_view text) {
@@ -77,6 +100,20 @@ void SphereAttributes::keep_only(const std::vector<std::uint8_t>& kept) {
   keep_entries(clips, kept);
   for (NamedNumbers& column : numbers) keep_entries(column.values, kept);
   for (NamedTexts& column : texts) keep_entries(column.text_of_sphere, kept);
+}
+
+SphereAttributes SphereAttributes::part(const std::vector<std::int64_t>& ids) const {
+  SphereAttributes made;
+  made.element = entries_of_part(element, ids);
+  made.type = entries_of_part(type, ids);
+  made.colour = entries_of_part(colour, ids);
+  made.opacity = entries_of_part(opacity, ids);
+  made.outline_px = entries_of_part(outline_px, ids);
+  made.crease = entries_of_part(crease, ids);
+  made.clips = entries_of_part(clips, ids);
+  for (const NamedNumbers& column : numbers) made.numbers.push_back({column.name, entries_of_part(column.values, ids)});
+  for (const NamedTexts& column : texts) made.texts.push_back(texts_of_part(column, ids));
+  return made;
 }
 
 std::int64_t SphereAttributes::allocated_bytes() const {

@@ -72,6 +72,10 @@ struct SphereAttributes {
   /// sphere.
   void keep_only(const std::vector<std::uint8_t>& kept);
 
+  /// Those of the spheres of these ids, in their order, which may name a sphere several times. Takes time by the number
+  /// of ids alone.
+  SphereAttributes part(const std::vector<std::int64_t>& ids) const;
+
   /// Bytes held by all columns, with their distinct texts.
   std::int64_t allocated_bytes() const;
 };

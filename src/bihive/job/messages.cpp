@@ -27,6 +27,16 @@ constexpr int kBarCharacters = 24;
 
 std::atomic<bool> g_once{false};
 bool g_in_lines = false;  // progress without a terminal
+
+// Progress for a program that reads it.
+bool shows_shares() {
+  static const bool shows = [] {
+    const char* const form = std::getenv("BIHIVE_PROGRESS");  // NOLINT(concurrency-mt-unsafe)
+    return form != nullptr && std::string_view(form) == "shares";
+  }();
+  return shows;
+}
+
 thread_local std::vector<std::string>* t_collected = nullptr;
 
 // All messages of the program go through this, because file names and other texts of users may contain anything.
@@ -107,7 +117,9 @@ void show_progress_in_lines() {
 Progress::Progress(const std::string& what)
     : what_(escaped(what)),
       terminal_(isatty(STDERR_FILENO) != 0),
-      next_draw_ms_(terminal_ ? kFirstDrawMs : kFirstLineMs) {}
+      next_draw_ms_(shows_shares() ? 0
+                    : terminal_    ? kFirstDrawMs
+                                   : kFirstLineMs) {}
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
@@ -115,6 +127,11 @@ Progress::~Progress() {
 
 void Progress::update(double done) {
   const double elapsed = timer_.elapsed_ms();
+  if (shows_shares()) {
+    if (elapsed < next_draw_ms_) return;
+    next_draw_ms_ = elapsed + kRedrawMs;
+    return say(fmt::format("progress: {} {:.4f}", what_, done));
+  }
   if (!(terminal_ || g_in_lines) || elapsed < next_draw_ms_ || done >= 1) return;
   next_draw_ms_ = elapsed + (terminal_ ? kRedrawMs : kNextLineMs);
   const std::string left = done > 0 ? readable_ms(std::ceil(elapsed * (1 - done) / done / 1000) * 1000) + " left" : "";

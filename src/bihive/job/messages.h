@@ -47,7 +47,9 @@ std::string readable_ms(double ms);
 void show_progress_in_lines();
 
 /// A line with the finished share and the remaining time. It is rewritten in place, on a terminal only, and only if the
-/// work takes over a second. It is cleared at the end. Only one thread at a time may call update().
+/// work takes over a second. It is cleared at the end. Only one thread at a time may call update(). If the environment
+/// has BIHIVE_PROGRESS=shares, stderr gets lines "bihive: progress: film 0.25" instead, up to ten per second: for
+/// packages that run this program.
 class Progress {
  public:
   explicit Progress(const std::string& what);

@@ -107,14 +107,18 @@ struct RayBatch {
     inside.push_back(ray.inside ? 1 : 0);
   }
 
-  /// Adds rays without segments: origin, direction, the surface on which they start, and its side.
+  /// Adds rays of another batch or array, with all their fields. Earlier rays do not change. An optional array stays
+  /// empty if neither side has it.
   void append(const RaySpan& rays) {
+    const Ray plain;
+    append_optional(t_min, rays.t_min, rays.count, plain.t_min);
+    append_optional(t_max, rays.t_max, rays.count, plain.t_max);
+    append_optional(leaves, rays.leaves, rays.count, plain.leaves);
+    append_optional(inside, rays.inside, rays.count, std::uint8_t{0});
     for (int axis = 0; axis < 3; ++axis) {
       origin[axis].insert(origin[axis].end(), rays.origin[axis], rays.origin[axis] + rays.count);
       direction[axis].insert(direction[axis].end(), rays.direction[axis], rays.direction[axis] + rays.count);
     }
-    leaves.insert(leaves.end(), rays.leaves, rays.leaves + rays.count);
-    inside.insert(inside.end(), rays.inside, rays.inside + rays.count);
   }
 
   RaySpan span() const {
@@ -129,6 +133,19 @@ struct RayBatch {
     if (!leaves.empty()) view.leaves = leaves.data();
     if (!inside.empty()) view.inside = inside.data();
     return view;
+  }
+
+ private:
+  // `added` may be null. Call it before the origins grow: size() is then the number of earlier rays.
+  template <class T>
+  void append_optional(std::vector<T>& kept, const T* added, std::int64_t count, T plain) const {
+    if (kept.empty() && added == nullptr) return;
+    const auto before = static_cast<std::size_t>(size());
+    kept.resize(before, plain);
+    if (added != nullptr)
+      kept.insert(kept.end(), added, added + count);
+    else
+      kept.resize(before + static_cast<std::size_t>(count), plain);
   }
 };
 
