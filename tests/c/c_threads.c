@@ -104,7 +104,7 @@ static int ask(int query, const bihive_rays* rays, int used, double* t, int64_t*
 
 /* Each query uses the threads that it is given, and with 0 few rays stay on this one. */
 static int uses_threads(void) {
-  enum { kFew = 8191, kMany = 100000, kCalls = 20, kMostCalls = 3000 };
+  enum { kFew = 8191, kMany = 100000, kCalls = 20, kMostCalls = 500 };
   static const double kSome = 2e-3;
   float* const from = malloc(3 * kMany * sizeof(float));
   float* const along = malloc(3 * kMany * sizeof(float));

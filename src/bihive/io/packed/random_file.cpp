@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <new>
 #include <utility>
 
 #include "bihive/base/memory.h"
-#include "bihive/base/output_place.h"
 
 namespace bihive {
 namespace {
@@ -19,15 +19,19 @@ FileStamp stamp_of(const struct stat& facts) {
           static_cast<std::int64_t>(facts.st_ino)};
 }
 
+Error unreadable(const std::string& path, int code) {
+  return {std::string("it cannot be read: ") + std::strerror(code), path, 0, 0, "", code};
+}
+
 }  // namespace
 
 Result<RandomFile> RandomFile::open(const std::string& path) {
   RandomFile file;
   file.path_ = path;
   file.file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file.file_ < 0) return system_error("it cannot be read", path, errno);
+  if (file.file_ < 0) return unreadable(path, errno);
   struct stat facts = {};
-  if (fstat(file.file_, &facts) != 0) return system_error("it cannot be read", path, errno);
+  if (fstat(file.file_, &facts) != 0) return unreadable(path, errno);
   if (!S_ISREG(facts.st_mode))
     return Error{"this is no file whose frames can be read in any order", path, 0, 0, "write it to a file first"};
   file.size_ = facts.st_size;
@@ -118,7 +122,7 @@ Status RandomFile::read_into(std::int64_t place, std::int64_t count, char* to) c
   for (std::size_t have = 0; have < wanted;) {
     const ssize_t n = pread(file_, to + have, wanted - have, place + static_cast<off_t>(have));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return system_error("it cannot be read", path_, errno);
+    if (n < 0) return unreadable(path_, errno);
     if (n == 0) return ends_early();
     have += static_cast<std::size_t>(n);
   }
