@@ -184,7 +184,7 @@ class Arguments(ProgramTest):
 
     def test_every_public_name_is_tried(self):
         tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Orthographic", "Perspective", "Look", "Style", "Hits", "Near",
-                 "again", "angle", "colour_map", "convert", "dihedral", "distance", "film", "read", "render", "select", "stats", "verify", "view"}
+                 "again", "angle", "colour_map", "convert", "dihedral", "distance", "film", "linear", "read", "render", "select", "stats", "verify", "view"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
@@ -213,6 +213,7 @@ class Arguments(ProgramTest):
         self.try_all(bh.angle, {"spheres": self.spheres, "triples": [0, 1, 2]})
         self.try_all(bh.dihedral, {"spheres": self.spheres, "quadruples": [0, 1, 2, 3]})
         self.try_all(bh.colour_map, {"values": [1.0, 2, 3, 4]})
+        self.try_all(bh.linear, {"light": (0.5, 0.25, 0)})
         self.try_all(bh.read, {"path": "demo"}, options=_spheres._READING)
         figure = self.path("figure.png")
         bh.render("demo", **SMALL).save(figure)

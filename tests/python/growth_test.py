@@ -87,6 +87,7 @@ def cases(folder):
         "Style": lambda: bh.render(s, style="illustrative", **options),
         "Style.text": lambda: bh.Style({}).text(),
         "colour_map": lambda: bh.colour_map(xyz[:, 0]),
+        "linear": lambda: bh.linear((0.5, 0, 0)),
         "convert": lambda: bh.convert(f"{folder}/read.xyz", f"{folder}/converted.csv"),
         "read": lambda: [bh.read(f"{folder}/read.{end}") for end in ends],
         "render": lambda: bh.render(s, **options),

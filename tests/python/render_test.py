@@ -55,7 +55,7 @@ class SameBits(ProgramTest):
             (["--light", "studio", "--fog", "0.3", "--outline", "2"], {"light": "studio", "fog": 0.3, "outline": 2}),
             (["--light", "at:9,9,50", "--light", "from:1,1,1:red"], {"light": ["at:9,9,50", "from:1,1,1:red"]}),
             (["--background", "none"], {"background": "none"}),
-            (["--bits", "16", "--background", "0.1,0.2,0.3"], {"bits": 16, "background": (0.1, 0.2, 0.3)}),
+            (["--bits", "16", "--background", "0.1,0.2,0.3"], {"bits": 16, "background": bh.linear((0.1, 0.2, 0.3))}),
             (["--crop", "8,4,40,30"], {"crop": (8, 4, 40, 30)}),
             (["--view", "normal"], {"view": "normal"}),
             (["--view", "traversal", "--max-prims", "1"], {"view": "traversal", "max_prims": 1}),

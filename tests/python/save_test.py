@@ -23,7 +23,7 @@ class Files(ProgramTest):
                 self.assertTrue(left_out)
                 continue
             self.assertTrue(np.array_equal(again["charge"], s["charge"]), ending)
-            self.assertTrue(np.array_equal(again["colour"], colours), ending)
+            self.assertTrue(np.array_equal(again["colour"], s["colour"]), ending)
         self.assertEqual(s.save(self.path("b.txt"), "csv"), [])
         self.assertEqual(self.read("b.txt"), self.read("a.csv"))
 

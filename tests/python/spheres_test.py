@@ -152,9 +152,39 @@ class Attributes(unittest.TestCase):
         by_name = bh.Spheres(xyz, 1, colour=["red", "#804020"])
         by_byte = bh.Spheres(xyz, 1, colour=np.array([[255, 0, 0], [0x80, 0x40, 0x20]], dtype=np.uint8))
         np.testing.assert_array_equal(by_name["colour"], by_byte["colour"])
-        self.assertAlmostEqual(by_byte["colour"][1, 0], ((128 / 255 + 0.055) / 1.055) ** 2.4, places=6)
+        self.assertAlmostEqual(by_byte["colour"][1, 0], 128 / 255, places=6)
         np.testing.assert_array_equal(bh.Spheres(xyz, 1, colour="blue")["colour"], [[0, 0, 1]] * 2)
-        np.testing.assert_array_equal(bh.Spheres(xyz, 1, colour=(0.5, 0.25, 0))["colour"], [[0.5, 0.25, 0]] * 2)
+
+    def test_floats_are_what_a_screen_shows_unless_said_otherwise(self):
+        xyz = np.zeros((2, 3))
+        on_screen = bh.Spheres(xyz, 1, colour=(128 / 255, 64 / 255, 0))
+        self.assertEqual(on_screen, bh.Spheres(xyz, 1, colour="#804000"))
+        np.testing.assert_allclose(on_screen["colour"], [[128 / 255, 64 / 255, 0]] * 2, atol=1e-6)
+        light = bh.Spheres(xyz, 1, colour=bh.linear((0.5, 0.25, 0)))
+        self.assertAlmostEqual(light["colour"][0, 0], 1.055 * 0.5 ** (1 / 2.4) - 0.055, places=6)
+        # What a set gives it takes, to the last bit.
+        colours = bh.Spheres(np.zeros((500, 3)), 1, colour=bh.linear(RNG.random((500, 3))))
+        self.assertEqual(bh.Spheres(colours.xyz, 1, colour=colours["colour"]), colours)
+        self.assertEqual(pickle.loads(pickle.dumps(light)), light)
+        for bad in (1.5, np.nan, -0.1):
+            with self.assertRaisesRegex(bh.UsageError, "light: expected colours from 0 to 1"):
+                bh.linear((bad, 0, 0))
+
+    def test_colours_of_options(self):
+        self.assertEqual(bh.Look(colour="#804000").words()[1].count("#"), 1)
+        look = dict(size=(24, 18), samples=1, style="plain")
+        s = bh.Spheres(np.zeros((1, 3)), 1)
+        for name in ("background", "outline_colour"):
+            more = {**look, "outline": 1} if name == "outline_colour" else look
+            named = bh.render(s, **more, **{name: "#804000"})
+            for same in ((128 / 255, 64 / 255, 0), np.array([128, 64, 0], dtype=np.uint8)):
+                self.assertEqual(np.asarray(bh.render(s, **more, **{name: same})).tolist(), np.asarray(named).tolist(), name)
+        named, numbers = (bh.Look(colour=one) for one in ("#804000", (128 / 255, 64 / 255, 0)))
+        self.assertEqual(np.asarray(bh.render(s, looks=named, **look)).tolist(), np.asarray(bh.render(s, looks=numbers, **look)).tolist())
+        self.assertEqual(bh.Look(colour=bh.linear((0.5, 0, 0))).words(), ["--select=all", "--colour=0.5,0.0,0.0"])
+        self.assertEqual(bh.Look(colour=bh.linear((0.5, 0, 0))), bh.Look(colour=bh.linear((0.5, 0, 0))))
+        with self.assertRaisesRegex(bh.UsageError, "background: expected a name, '#rrggbb', or three numbers"):
+            bh.render(s, background=(1, 0), **look)
 
     def test_elements(self):
         xyz = np.zeros((3, 3))
@@ -293,7 +323,7 @@ class ColourMap(unittest.TestCase):
         colours = bh.colour_map([0.0, 3.0, 5.0, np.nan], "viridis", range=(0, 3), nan_colour="red")
         np.testing.assert_array_equal(colours[1], colours[2])
         np.testing.assert_array_equal(colours[3], [1, 0, 0])
-        self.assertEqual(colours.dtype, np.float32)
+        self.assertEqual(colours.dtype, np.float64)
         self.assertLess(colours[0].sum(), colours[1].sum())
 
     def test_own_colours(self):

@@ -13,12 +13,13 @@ Tree                hits of rays
 view                the page in a browser, with spheres from memory
 select, stats       spheres that match an expression; statistics of the trees
 distance            between centres of spheres; angle, dihedral
-colour_map          colours of numbers
+colour_map          colours of numbers; linear: linear light as colours
 Error               the base of all exceptions of this package
 """
 
 from ._bihive import __version__
 from ._camera import Look, Orthographic, Perspective, Style
+from ._colours import linear
 from ._errors import Error, FileError, InputError, InputWarning, MissingError, UsageError
 from ._figures import Verdict, again, verify
 from ._film import film
@@ -55,6 +56,7 @@ __all__ = [
     "dihedral",
     "distance",
     "film",
+    "linear",
     "read",
     "render",
     "select",

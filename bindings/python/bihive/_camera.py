@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any, Optional, Sequence, Union
 
 from ._checks import boolean, mapping
+from ._colours import Linear
 from ._errors import UsageError, bad_argument, shortened
 from ._options import ACTIONS, action_words, option
 
@@ -83,8 +84,8 @@ class Perspective:
 class Look:
     """Actions on the spheres of a selection: the options of the command line after ``--select``.
 
-    select: an expression (docs/selections.md). show: False hides them. colour: a name, "#rrggbb" or three numbers of linear
-    light. colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
+    select: an expression (docs/selections.md). show: False hides them. colour: a name, "#rrggbb", or three numbers as a
+    screen shows them (linear light: linear()). colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
     outline: pixels. crease: an attribute. legend_name: a text. clip: a text such as "plane:1,0,0,2.5", or several.
 
     >>> Look("element C", colour="orange", opacity=0.5).words()
@@ -93,7 +94,7 @@ class Look:
 
     select: str = "all"
     show: Optional[bool] = None
-    colour: Union[str, Vector, None] = None
+    colour: Union[str, Vector, Linear, None] = None
     colour_by: Optional[str] = None
     opacity: Optional[float] = None
     material: Optional[str] = None

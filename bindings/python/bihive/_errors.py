@@ -112,7 +112,8 @@ def failure(
     message, hint = shortened(message, _LONGEST_MESSAGE), shortened(hint, _LONGEST_MESSAGE)
     hint = "" if hint.endswith("--help") else hint
     if system_code != 0 and kind == "input":
-        return FileError(system_code, message + ("; " + hint if hint else ""), file, argument=argument)
+        path = file if len(file) <= _LONGEST_PATH else shortened(file)
+        return FileError(system_code, message + ("; " + hint if hint else ""), path, argument=argument)
     place = ":".join([shortened(file), *(str(number) for number in (line, column) if number > 0)]) if file else ""
     text = (place + ": " if place else "") + message + ("; " + hint if hint else "")
     if 0 < len(shown) <= _LONGEST_MESSAGE:
@@ -146,6 +147,7 @@ def bad_argument(argument: str, message: str, hint: str = "") -> UsageError:
 
 
 _LONGEST = 160  # for text in a message that comes from a file or an argument
+_LONGEST_PATH = 4096  # of Linux
 _LONGEST_MESSAGE = 300
 _REPR = reprlib.Repr()
 _REPR.maxstring = _REPR.maxother = 60

@@ -13,6 +13,7 @@ import numpy as np
 from . import _bihive
 from ._arrays import as_array, numbers, one_each, texts, whole_numbers
 from ._checks import boolean, mapping, one_of, path_of, several, text_of, whole_text
+from ._colours import light_of
 from ._errors import FileError, InputError, InputWarning, UsageError, bad_argument, found, shortened, writing
 from ._options import words_of
 
@@ -32,39 +33,6 @@ def _warn_of(core: _bihive.Spheres) -> None:
     """Tells of the reader's doubts, at the line that called the library's function."""
     for warning in core.warnings:
         warnings.warn(warning, InputWarning, stacklevel=3)
-
-
-def _bytes_on_screen(colours: Array) -> Array:
-    """Linear light of colours as a screen shows them, given as bytes."""
-    table = np.array([_colour_of_text(f"#{byte:02x}0000")[0] for byte in range(256)], dtype=np.float32)
-    made: Array = table[colours]
-    return made
-
-
-def _colours(value: Any, count: int, name: str) -> Array:
-    """float32 (n, 3) of linear light. `name`: the argument's."""
-    if isinstance(value, str):
-        return np.broadcast_to(_colour_of_text(value, name), (count, 3))
-    array = as_array(name, value)
-    if array.dtype.kind in "US" or (array.dtype.kind == "O" and array.ndim == 1 and array.size > 0):
-        values = texts(name, array, count)
-        known = {one: _colour_of_text(one, name) for one in set(values)}
-        return np.array([known[one] for one in values], dtype=np.float32).reshape(count, 3)
-    array = _bytes_on_screen(array) if array.dtype == np.uint8 else numbers(name, array)
-    if array.shape == (3,):
-        array = np.broadcast_to(array, (count, 3))
-    if array.shape != (count, 3):
-        raise bad_argument(name, f"expected a colour, or shape ({count}, 3), found shape {array.shape}")
-    if count > 0 and not bool(((array >= 0) & (array <= 1)).all()):
-        raise bad_argument(name, "expected linear light from 0 to 1", "colours of bytes must have dtype uint8")
-    return array
-
-
-def _colour_of_text(text: str, name: str = "colour") -> Array:
-    light = _bihive.linear_colour(whole_text(name, text))
-    if light is None:
-        raise bad_argument(name, f"expected a name, '#rrggbb', or numbers, found {found(text)}")
-    return np.array(light, dtype=np.float32)
 
 
 def _opacities(value: Any, count: int) -> Array:
@@ -206,8 +174,8 @@ class Spheres:
         as center, centers, centre, centres.
     radius: one number, or shape (n,); at least 0. Left out: the fourth column, else van der Waals radii by element. Also as
         radii, or as diameter, of which it is half.
-    colour: one colour, or shape (n, 3): linear light from 0 to 1 (colour_map() makes it), uint8: as a screen shows it; or n
-        names or "#rrggbb". Left out: by element or type, else the style's. Also as color.
+    colour: one colour, or shape (n, 3): as a screen shows it, floats from 0 to 1 (as matplotlib and colour_map() make them) or
+        uint8, or linear(light); or n names or "#rrggbb". Left out: by element or type, else the style's. Also as color.
     opacity: one number, or shape (n,): 0 (clear) to 1.
     element: atomic numbers (0: unknown) or symbols, shape (n,), or one.
     type: whole numbers, shape (n,), or one.
@@ -283,7 +251,7 @@ class Spheres:
             radii,
             elements,
             None if type is None else whole_numbers("type", type, count, *_TYPES).astype(np.int32),
-            None if colour is None else np.asarray(_colours(colour, count, spelled.get("colour", "colour")), dtype=np.float32),
+            None if colour is None else np.asarray(light_of(spelled.get("colour", "colour"), colour, count), dtype=np.float32),
             None if opacity is None else np.asarray(_opacities(opacity, count), dtype=np.float32),
             list(numbers_of.items()),
             list(texts_of.items()),
@@ -423,7 +391,7 @@ class Spheres:
         if name in ("element", "type", "opacity", "colour"):
             value = getattr(self._core, name)
             if value is not None:
-                return np.asarray(value)
+                return np.asarray(_bihive.screen_of_light(value) if name == "colour" else value)
         # A name with a lone surrogate has no encoding, and belongs to no column.
         value = self._core.column(name) if _has_encoding(name) else None
         if value is None and name == "speed":
@@ -641,7 +609,7 @@ def _map_text(map: Any) -> str:
 
 
 def colour_map(values: Any, map: Any = None, range: Any = None, log: bool = False, nan_colour: str = "grey") -> Array:
-    """float32 (n, 3) of linear light: the colours that ``--colour-by`` gives these values.
+    """float64 (n, 3): the colours that ``--colour-by`` gives these values, as a screen shows them.
 
     values: numbers or texts, shape (n,). map: "viridis", "RdBu_r" or another of ``bihive render --help-all``, a list of 2 to 1024
     colours ("#rrggbb" or names), or the path of a file with a colour on each line; left out: viridis for numbers, colours by
@@ -670,4 +638,4 @@ def colour_map(values: Any, map: Any = None, range: Any = None, log: bool = Fals
     how = [colours, ends, "log" if log else ""]
     while how and not how[-1]:
         how.pop()
-    return _bihive.colours_of(data, "".join(":" + one for one in how), nan_colour)
+    return _bihive.screen_of_light(_bihive.colours_of(data, "".join(":" + one for one in how), nan_colour))

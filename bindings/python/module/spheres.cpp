@@ -18,6 +18,7 @@
 #include "bihive/geometry/measures.h"
 #include "bihive/geometry/rounding_loss.h"
 #include "bihive/image/colour_text.h"
+#include "bihive/image/transfer.h"
 #include "bihive/io/bundled.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/packed.h"
@@ -339,6 +340,13 @@ std::string statistics(const Spheres& spheres, const std::vector<std::string>& w
   return text;
 }
 
+// The function of each number, in an array of the same shape.
+py::array_t<double> each_number(const Array<double>& numbers, double (*function)(double)) {
+  py::array_t<double> made(std::vector<py::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
+  std::transform(numbers.data(), numbers.data() + numbers.size(), made.mutable_data(), function);
+  return made;
+}
+
 // Colours as from --colour-by, for numbers or texts without a set.
 py::array_t<float> colours_of(const py::object& values, const std::string& how, const std::string& nan_colour) {
   const bool are_texts = py::isinstance<py::list>(values);
@@ -464,6 +472,10 @@ void bind_spheres(py::module_& module) {
     value_of(write_file(path, bytes));
   });
   module.def("colours_of", colours_of);
+  module.def("light_of_screen", [](const Array<double>& colours) { return each_number(colours, linear_from_srgb); });
+  module.def("screen_of_light", [](const Array<double>& light) {
+    return each_number(light, [](double one) { return one < 1 ? srgb_from_linear(one) : 1; });
+  });
   module.def("linear_colour", [](const std::string& text) -> std::optional<std::array<double, 3>> {
     const std::optional<Vec3d> light = colour_from_text(text, Transfer::srgb);
     if (!light) return std::nullopt;
