@@ -65,7 +65,11 @@ target_compile_definitions(bihive_options INTERFACE BIHIVE_HAS_ZLIB=1 BIHIVE_HAS
 set(BIHIVE_OPENEXR AUTO CACHE STRING "Write OpenEXR: ON, OFF, or AUTO: where it is installed")
 set(BIHIVE_HAS_OPENEXR OFF)
 if(NOT BIHIVE_OPENEXR STREQUAL "OFF")
+  # Debian's description of Imath complains of its Python module, which need not be installed.
+  set(log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
+  set(CMAKE_MESSAGE_LOG_LEVEL NOTICE)
   find_package(OpenEXR 3.1 QUIET)
+  set(CMAKE_MESSAGE_LOG_LEVEL "${log_level}")
   if(OpenEXR_FOUND)
     set(BIHIVE_HAS_OPENEXR ON)
     # Its headers are for one source file alone: bihive_exr.

@@ -1,5 +1,5 @@
-# bihive.pc, by which build systems other than CMake find an installed library (pkg-config --cflags --libs bihive). It
-# names its own folder, so the installation may be moved.
+# bihive.pc and bihive_c.pc, by which build systems other than CMake find an installed library (pkg-config --cflags --libs bihive). They
+# name their own folder, so the installation may be moved.
 
 set(pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pc /${pc_folder} /)
@@ -41,3 +41,8 @@ if(BUILD_SHARED_LIBS)
 endif()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/bihive.pc.in ${PROJECT_BINARY_DIR}/bihive.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/bihive.pc DESTINATION ${pc_folder} COMPONENT libbihive-dev)
+# The library for C has all that it needs inside.
+if(TARGET bihive_c)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/bihive_c.pc.in ${PROJECT_BINARY_DIR}/bihive_c.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/bihive_c.pc DESTINATION ${pc_folder} COMPONENT libbihive-dev)
+endif()

@@ -27,11 +27,8 @@ def version():
 
 
 def metadata():
-    return (
-        f"Metadata-Version: 2.1\nName: bihive\nVersion: {version()}\n"
-        "Summary: Exact ray tracing of spheres: NumPy in, picture out\n"
-        "License: MIT\nRequires-Python: >=3.9\nRequires-Dist: numpy\n"
-    )
+    text = (TOP / "bindings/python/METADATA.in").read_text(encoding="utf-8")
+    return text.replace("@PROJECT_VERSION@", version())
 
 
 def tag():
