@@ -5,7 +5,7 @@
 
 #include <cerrno>
 
-#include "bihive/base/read_file.h"
+#include "bihive/base/write_file.h"
 
 namespace bihive {
 namespace {
