@@ -107,6 +107,19 @@ class KeyCollector {
   }
 
   bool used() const { return used_; }
+
+  // Takes the entries of a key that says the same: of one attribute, by category, without a category that has another
+  // colour there.
+  bool join(const KeyCollector& other) {
+    if (how_.range || other.how_.range || how_.attribute != other.how_.attribute || how_.title != other.how_.title)
+      return false;
+    for (const auto& [place, entry] : other.entries_)
+      if (const auto own = entries_.find(place); own != entries_.end() && own->second.colour != entry.colour)
+        return false;
+    entries_.insert(other.entries_.begin(), other.entries_.end());
+    return true;
+  }
+
   bool knows_nothing() const { return how_.range && !is_known_; }
   const std::string& attribute() const { return how_.attribute; }
   /// The first one, and of each entry the first.
@@ -176,9 +189,15 @@ LegendKey key_of_names(const Scene& scene) {
 }  // namespace
 
 std::vector<LegendKey> legend_of(const Scene& scene) {
+  std::vector<KeyCollector> joined;
+  for (const KeyCollector& collector : collected(scene)) {
+    if (!collector.used()) continue;
+    const bool is_said =
+        std::any_of(joined.begin(), joined.end(), [&](KeyCollector& earlier) { return earlier.join(collector); });
+    if (!is_said) joined.push_back(collector);
+  }
   std::vector<LegendKey> keys;
-  for (const KeyCollector& collector : collected(scene))
-    if (collector.used()) keys.push_back(collector.key());
+  for (const KeyCollector& collector : joined) keys.push_back(collector.key());
   if (LegendKey names = key_of_names(scene); !names.entries.empty()) keys.push_back(std::move(names));
   return keys;
 }
