@@ -13,7 +13,7 @@ holes = inside & (room > 1.0)
 both = bh.Spheres(
     np.concatenate([s.xyz, grid[holes]]),
     radius=np.concatenate([s.radius * 0.5, room[holes]]),
-    hole=np.concatenate([np.zeros(len(s)), np.ones(holes.sum())]),
+    columns={"hole": np.concatenate([np.zeros(len(s)), np.ones(holes.sum())])},
 )
 looks = [bh.Look("hole == 0", colour="#c8d0d8", opacity=0.35), bh.Look("hole == 1", colour="#d04020")]
 bh.render(both, size=(480, 360), looks=looks).save("24-holes.png")

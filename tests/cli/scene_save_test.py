@@ -13,7 +13,7 @@ MOLECULE = "2\n\nC 0 0 0\nO 1.2 0 0\n"
 # A value of each option with one. A new option needs a row here: none may be lost.
 VALUES = {
     "size": "8.5x6cm", "crop": "0,0,9,9", "view": "normal", "samples": "auto", "recursion": "3", "matte": "black", "stereo": "side",
-    "eye_distance": "0.1", "transfer": "none", "background": "none", "bits": "16", "dpi": "300", "style": "flat", "light": "from:1,1,1:red:0.5",
+    "eye_distance": "0.1", "fit_share": "0.9", "transfer": "none", "background": "none", "bits": "16", "dpi": "300", "style": "flat", "light": "from:1,1,1:red:0.5",
     "ao_distance": "5", "ao_directions": "16", "opacity_rule": "once", "light_points": "4", "fog": "0.5", "fog_start": "0.1", "fog_end": "0.9",
     "outline_step": "2", "outline_colour": "blue", "line_unit": "pt", "exposure": "-1", "tone": "filmic", "view_from": "best:chain A",
     "eye": "0,0,90", "look_at": "resname 478", "fit": "chain A and name CA", "zoom_to": "element O", "up": "0,0,1", "fov": "20",
