@@ -1,5 +1,5 @@
-# bihive.pc and bihive_c.pc, by which build systems other than CMake find an installed library (pkg-config --cflags --libs bihive). They
-# name their own folder, so the installation may be moved.
+# bihive.pc and bihive_c.pc, by which build systems other than CMake find an installed library (pkg-config --cflags
+# --libs bihive). They name their own folder, so the installation may be moved.
 
 set(pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pc /${pc_folder} /)

@@ -511,8 +511,8 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   ThesisOptions thesis;
   WebOptions web;
   Request request = HelpText{"", false};
-  // Only the options of the command that is named, as there are more than a thousand in all; where none is, every
-  // command is listed with its options.
+  // The options of the named command alone: those of all take most of the time of a short call. Without one, all
+  // commands are there, for --help and for the manual pages.
   const std::pair<std::string_view, std::function<void()>> commands[] = {
       {"render", [&] { add_render(app, render, request); }},
       {"again", [&] { add_again(app, again, request); }},

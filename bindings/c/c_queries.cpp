@@ -33,11 +33,11 @@ struct bihive_lists {
 namespace bihive::c {
 namespace {
 
-// Rays per chunk: at most, because each chunk is copied; at least, where all threads may be used: 4,096 rays take 50 us
-// to 4 ms, and to wake a thread takes 2 to 50; at least, where the caller asks for a number of threads: what is traced
-// together.
+// Rays per chunk. At most: each chunk is copied.
 constexpr std::int64_t kMostRaysPerPart = 1 << 17;
+// At least, if the caller leaves the number of threads open: fewer rays are traced faster than threads are woken.
 constexpr std::int64_t kFewestRaysOfAll = 4096;
+// At least, if the caller states a number of threads: a block of a beam.
 constexpr std::int64_t kFewestRays = 64;
 
 // Rays are shared among threads in chunks of `size`; the last may be smaller.

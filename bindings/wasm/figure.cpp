@@ -2,29 +2,21 @@
 
 #include <emscripten/bind.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "answers.h"
 #include "bihive/base/sha256.h"
 #include "bihive/base/version.h"
 #include "bihive/io/bundled.h"
-#include "bihive/job/choose_look.h"
+#include "bihive/job/draw_again.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
-#include "bihive/job/prepare_picture.h"
 #include "bihive/job/verdict.h"
-#include "bihive/render/finished_pixels.h"
-#include "bihive/render/memory.h"
-#include "bihive/render/renderer.h"
 
 namespace bihive::page {
 namespace {
 
 using nlohmann::ordered_json;
-
-// The progress of a picture is told this often.
-constexpr int kBands = 50;
 
 // The library for front ends throws.
 template <class Work>
@@ -36,39 +28,6 @@ std::string answered(const Work& work) {
       return failure(failed.error);
     }
   });
-}
-
-void append(PngPixels rows, PngPixels& all) {
-  if (all.height == 0) {
-    all = std::move(rows);
-    return;
-  }
-  all.bytes.insert(all.bytes.end(), rows.bytes.begin(), rows.bytes.end());
-  all.height += rows.height;
-}
-
-PngPixels drawn_again(const PictureRequest& request, const emscripten::val& progress) {
-  const RenderEngine engine = choose_engine(request);
-  if (is_gpu(engine))
-    fail({"was drawn by a graphics processor, which this page cannot compare", "", 0, 0, "bihive verify compares it"});
-  Style style = choose_style(request.style);
-  if (request.fixed) fix_range(style, request.fixed->range_of_style);
-  Input input = load_input(request.input, LooksOfFile::keep, &style, !request.style.name.empty());
-  const RenderSettings settings = prepare_picture(request, engine, input);
-  check_memory_of(engine, input, request, settings);
-  const Tile drawn = drawn_pixels(settings);
-  value_or_fail(check_picture_memory(drawn.width(), drawn.height()));
-  const Tracer tracer = value_or_fail(Tracer::build(input.scene, structure_of(engine), request.tree, settings.threads));
-  PngPixels all;
-  const auto take = [&](const Film& film, const Tile& band) -> Status {
-    RenderSettings of_band = settings;
-    of_band.crop = band;
-    append(finished_pixels(film, input.scene, of_band, static_cast<int>(request.bits.value_or(8))), all);
-    progress(static_cast<double>(band.y1 - drawn.y0) / drawn.height());
-    return Done{};
-  };
-  value_or_fail(render_in_bands(input.scene, tracer, settings, 1 + drawn.height() / kBands, take));
-  return all;
 }
 
 emscripten::val bundled() {
@@ -105,11 +64,11 @@ std::string Figure::open(const std::string& name, const std::string& record) {
 
 std::string Figure::draw(const emscripten::val& progress) {
   return answered([&] {
-    std::vector<std::string> warnings;  // of the input; whoever opens it here is told
+    std::vector<std::string> warnings;  // not shown: opening the input on the page shows them
     const CollectedWarnings collected(warnings);
     std::string place(kFolder);
     place.pop_back();
-    again_ = drawn_again(request_again(record_, place, "", {}), progress);
+    again_ = draw_again(request_again(record_, place, "", {}), [&progress](double done) { progress(done); });
     return std::string("{}");
   });
 }

@@ -51,7 +51,9 @@ class Density(ProgramTest):
         self.assertNotEqual(self.picture("--style", "density", "--radius-scale", "2"), automatic)
         opaque = self.picture("--style", "density", "--select", "all", "--opacity", "1")
         colours = {pixel for row in opaque for pixel in row}
-        self.assertIn(max(colours), {(r, g, b) for r, g, b in colours if b == 255})
+        of_style = tuple(round(255 * (1.055 * light ** (1 / 2.4) - 0.055)) for light in (0.55, 0.75, 1))
+        self.assertIn(of_style, colours)
+        self.assertNotIn(of_style, {pixel for row in automatic for pixel in row})
 
     def test_a_record_gives_the_same_bits(self):
         self.picture("--style", "density")

@@ -356,7 +356,7 @@ class ColourMap(unittest.TestCase):
             with self.assertRaisesRegex(bh.UsageError, f"{other}: is no argument; did you mean {ours}.*columns=") as caught:
                 bh.Spheres([[0, 0, 0]], radius=1, **{other: [1]})
             self.assertEqual(caught.exception.argument, other)
-        with self.assertRaisesRegex(bh.UsageError, r"^charge: is no argument; An attribute of your own goes into columns=\{\.\.\.\}$"):
+        with self.assertRaisesRegex(bh.UsageError, r"^charge: is no argument; attributes of your own go into columns=\{\.\.\.\}$"):
             bh.Spheres([[0, 0, 0]], radius=1, charge=[1])
         self.assertEqual(bh.Spheres([[0, 0, 0]], radius=1, columns={"radii": [3]})["radii"].tolist(), [3])
 

@@ -10,12 +10,9 @@
 
 #include "bihive/base/sha256.h"
 #include "bihive/base/write_file.h"
-#include "bihive/job/choose_look.h"
+#include "bihive/job/draw_again.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/picture_record.h"
-#include "bihive/job/prepare_picture.h"
-#include "bihive/render/finished_pixels.h"
-#include "bihive/render/renderer.h"
 
 namespace {
 
@@ -36,21 +33,11 @@ std::string record_in(std::string_view png) {
   return "";
 }
 
-PngPixels drawn_again(const PictureRequest& request) {
-  const Style style = choose_style(request.style);
-  Input input = load_input(request.input, LooksOfFile::keep, &style, !request.style.name.empty());
-  const RenderEngine engine = choose_engine(request);
-  const RenderSettings settings = prepare_picture(request, engine, input);
-  const Tracer tracer = value_or_fail(Tracer::build(input.scene, structure_of(engine), request.tree, settings.threads));
-  const Rendered rendered = value_or_fail(render(input.scene, tracer, settings));
-  return finished_pixels(rendered.film, input.scene, settings, static_cast<int>(request.bits.value_or(8)));
-}
-
 bool holds(const std::string& path) {
   const std::string png = value_or_fail(read_file(path));
   const PictureRecord record = value_or_fail(picture_record_from(record_in(png)));
   const PictureRequest request = request_again(record, ".", "", {});
-  const bool same = changed_files(record, request).empty() && sha256_of(drawn_again(request)) == record.pixels_sha256;
+  const bool same = changed_files(record, request).empty() && sha256_of(draw_again(request)) == record.pixels_sha256;
   std::printf("%s: %s\n", path.c_str(), same ? "the same bits" : "other pixels or inputs");
   return same;
 }

@@ -107,7 +107,7 @@ _ARGUMENTS = ["xyz", "radius", "colour", "opacity", "element", "type", "cell", "
 def _unknown_argument(name: str) -> UsageError:
     near = difflib.get_close_matches(name, [*_ARGUMENTS, *_ALIASES], 1)
     meant = _OTHER_NAMES.get(name.lower()) or (near[0] if near else "")
-    hint = (f"did you mean {meant}? " if meant else "") + "An attribute of your own goes into columns={...}"
+    hint = (f"did you mean {meant}; " if meant else "") + "attributes of your own go into columns={...}"
     return bad_argument(shortened(name, 60), "is no argument", hint)
 
 

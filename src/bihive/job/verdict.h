@@ -45,7 +45,7 @@ std::string sha256_of(const FigurePixels& figure);
 /// Compares the pixels of a figure with those of the same picture rendered now.
 void compare(const FigurePixels& figure, const FigurePixels& again, Verdict& verdict);
 
-/// What failed, as the verdict's error. Throws an interruption again.
+/// Records the failure as the verdict's error. Rethrows an interruption.
 void note_failure(const Failure& failure, Verdict& verdict);
 
 /// "the same bits", or all reasons why it does not hold.

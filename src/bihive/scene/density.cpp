@@ -5,22 +5,21 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "bihive/math/elementary.h"
 #include "bihive/scene/central_box.h"
+#include "bihive/settings/picture_effects.h"
 
 namespace bihive {
 namespace {
 
-// The share of all points, along each axis, that the extent counts.
+// The extent is that of this share of the points, along each axis.
 constexpr double kShareOfExtent = 0.98;
-// Of the picture's shorter side, as for lines (LineUnit::picture).
-constexpr double kDotsAcross = 720;
 // Dots of small sets, as a share of the extent.
 constexpr double kLargestDotOfFew = 0.05;
-constexpr double kPi = 3.14159265358979323846;
 
 // Coverage of squares of this size by the discs of spheres, in one projection of the box. Stored units.
 class Coverage {
@@ -31,10 +30,10 @@ class Coverage {
   }
 
   void add(const std::array<float, 3>& centre, double radius) {
-    covered_[place(centre, up_) * columns_ + place(centre, across_)] += kPi * radius * radius;
+    covered_[place(centre, up_) * columns_ + place(centre, across_)] += std::numbers::pi * radius * radius;
   }
 
-  // Of the squares with a disc, in discs.
+  // The percentile of the coverage of all squares with a disc, in squares' areas.
   double percentile(double percent) {
     covered_.erase(std::remove(covered_.begin(), covered_.end(), 0.0), covered_.end());
     if (covered_.empty()) return 0;
@@ -79,7 +78,7 @@ Density density_of(const SphereSet& spheres, const DensityStyle& style, bool ass
   double extent = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) extent = std::max(extent, double(box.hi[axis]) - double(box.lo[axis]));
   const double of_few = std::min(1 / std::sqrt(static_cast<double>(spheres.size())), kLargestDotOfFew);
-  const double dot = extent * std::max(style.dot / kDotsAcross, of_few);
+  const double dot = extent * std::max(style.dot / kLineUnitsOfPicture, of_few);
 
   Density density;
   std::optional<double> stored;

@@ -8,9 +8,9 @@
 
 namespace bihive {
 
-/// What a style states (docs/styles.md).
+/// The key `density` of a style file (docs/styles.md).
 struct DensityStyle {
-  double dot = 3;           ///< diameter of points without radii, in 1/720 of the set's extent; above 0
+  double dot = 3;           ///< diameter of points without radii, in 1/kLineUnitsOfPicture of the set's extent; above 0
   double percentile = 99;   ///< of the covered places of a picture, 0 to 100: ...
   double brightness = 0.9;  ///< ... this share of the full brightness, above 0 and below 1
 };

@@ -11,8 +11,8 @@
 namespace bihive {
 namespace {
 
-// What the reader says of radii that the style replaces is no longer so.
-void leave_out_assumed(std::vector<std::string>& notes, std::string_view beginning) {
+// Removes the reader's notes on radii that the style has replaced.
+void remove_notes(std::vector<std::string>& notes, std::string_view beginning) {
   std::erase_if(notes, [&](const std::string& note) { return note.starts_with(beginning); });
 }
 
@@ -42,8 +42,8 @@ void take_density(LoadedScene& loaded, const Style& style) {
   const Density density = density_of(loaded.scene.spheres, *style.density, loaded.has_assumed_radii);
   show_density(loaded, density);
   if (density.radius) {
-    leave_out_assumed(loaded.warnings, kNoRadii);
-    leave_out_assumed(loaded.rules, "radii: ");
+    remove_notes(loaded.warnings, kNoRadii);
+    remove_notes(loaded.rules, "radii: ");
     loaded.rules.push_back("radii: " + readable_number(*density.radius) + ", as the style " + style.name +
                            " draws points");
   }

@@ -12,8 +12,8 @@ namespace bihive {
 /// LoadedScene::rules. A file's radii and opacities stay.
 void take_density(LoadedScene& loaded, const Style& style);
 
-/// The spheres get these values in place of those that they have from a style; unset: what they had without it. For
-/// frames of a film, which has those of its first one.
+/// Replaces the radii and opacities that a style gave the spheres. Unset: restores those that they had before. A film
+/// shows all its frames with the values of the first.
 void show_density(LoadedScene& loaded, const std::optional<Density>& density);
 
 }  // namespace bihive

@@ -5,9 +5,10 @@
 // to some 45 MiB, and 60 bytes for each of up to 1048576 scattered rays). An invalid ray (geometry/ray.h) hits nothing.
 // Hold the std::shared_ptr that the builder gave for as long as a call runs.
 //
-// The form for many rays takes less than half the time per ray. Pass all rays at once; fewer than some thousand leave
-// the vectors idle, and more than 32768 are split into tiles of this size. Scattered rays, whose neighbours are far
-// apart, are sorted first where that pays, up to 1048576 at a time: the more in one call the better (docs/library.md).
+// The form for many rays takes less time per ray (docs/library.md has figures). Pass all rays at once; fewer than some
+// thousand leave the vectors idle, and more than 32768 are split into tiles of this size. Scattered rays, whose
+// neighbours are far apart, are sorted first where that pays, up to 1048576 at a time: the more in one call the better
+// (docs/library.md).
 //
 // Lengths are not checked. The caller guarantees that each array of a span holds `count` entries, or is null where
 // RaySpan allows it, and that the answers have room for `count`; count 0 is fine. Throws only std::bad_alloc, when the

@@ -130,7 +130,7 @@ int widest_axis(Vec3d extent) {
 
 }  // namespace
 
-// Where there are many points, both halves are built at a time.
+// Builds both halves in parallel where there are many points.
 void NearestPlace::build(Range& range, TaskList& tasks) {
   try {
     const auto [first, end] = std::pair(range.first, range.end);
