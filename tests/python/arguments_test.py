@@ -183,20 +183,22 @@ class Arguments(ProgramTest):
                 self.judge(call, {**valid, name: HOSTILE[label]}, name, label)
 
     def test_every_public_name_is_tried(self):
-        tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Orthographic", "Perspective", "Look", "Style", "Hits", "Near",
+        tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs",
                  "again", "angle", "colour_map", "convert", "dihedral", "distance", "film", "linear", "read", "render", "select", "stats", "verify", "view"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
-        self.assertEqual(methods, {"save"})
+        self.assertEqual(methods, {"save", "moved", "with_columns"})
         methods = {name for name, one in vars(bh.Picture).items() if callable(one) and not name.startswith("_")}
         self.assertEqual(methods, {"layer", "save", "detach"})
         methods = {name for name, one in vars(bh.Tree).items() if callable(one) and not name.startswith("_")}
-        self.assertEqual(methods, {"closest", "occluded", "all_hits", "nearest", "within", "contains", "overlaps"})
+        self.assertEqual(methods, {"closest", "occluded", "all_hits", "nearest", "within", "contains", "overlaps", "count_within", "pairs", "update"})
 
     def test_spheres(self):
         self.try_all(bh.Spheres, {"xyz": np.zeros((4, 3)), "radius": 1}, others=["radii", "color", "center", "diameter"])
         self.try_all(self.spheres.save, {"path": self.path("a.csv")})
+        self.try_all(self.spheres.moved, {"xyz": np.zeros((4, 3))})
+        self.try_all(self.spheres.with_columns, {"columns": {"more": [1, 2, 3, 4]}})
         for label, value in HOSTILE.items():
             self.judge(self.spheres.__getitem__, {"key": value}, "", label) if label != "hostile" else None
             self.judge(self.spheres.__setstate__, {"state": value}, "state", label)
@@ -232,6 +234,9 @@ class Arguments(ProgramTest):
         self.try_all(tree.within, {**points, "limits": 1.0})
         self.try_all(tree.contains, points)
         self.try_all(tree.overlaps, {**points, "radii": 1.0})
+        self.try_all(tree.count_within, {**points, "limits": 1.0})
+        self.try_all(tree.pairs, {"reach": 1.0})
+        self.try_all(tree.update, {"xyz": np.zeros((4, 3))})
 
     def test_pictures(self):
         picture = bh.render(self.spheres, **SMALL)

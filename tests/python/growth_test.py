@@ -56,6 +56,7 @@ def cases(folder):
         s.save(f"{folder}/read.{end}")
     bh.render(f"{folder}/read.xyz", **options).save(f"{folder}/figure.png")
     found = tree.contains(points)
+    moving = bh.Tree(s, threads=2)
 
     def fields(thing):
         return lambda: [getattr(thing, name) for name in type(thing)._fields]
@@ -71,11 +72,20 @@ def cases(folder):
         "Tree.within": lambda: tree.within(points, 0.1),
         "Tree.contains": lambda: tree.contains(points),
         "Tree.overlaps": lambda: tree.overlaps(points, 0.1),
+        "Tree.count_within": lambda: tree.count_within(points, 0.1),
+        "Tree.pairs": lambda: tree.pairs(0.1),
+        "Tree.update": lambda: moving.update(xyz),
+        "Spheres.moved": lambda: s.moved(xyz),
+        "Spheres.with_columns": lambda: s.with_columns({"more": xyz[:, 1]}),
         "Picture": lambda: np.asarray(bh.render(s, **options)).sum(),
         "Picture.layer": lambda: picture.layer("depth"),
         "Picture.save": lambda: [picture.save(f"{folder}/saved.{end}") for end in ("png", "exr")],
         "Picture.detach": lambda: bh.render(s, **options).detach(),
         "Hits": fields(tree.all_hits(rays, rays)),
+        "Hits.counts": lambda: tree.all_hits(rays, rays).counts,
+        "ClosestHits": lambda: [tree.closest(rays, rays).normals(), tree.all_hits(rays, rays).exits()],
+        "HitDerivatives": fields(tree.closest(rays, rays).derivatives()),
+        "Pairs": fields(tree.pairs(0.1)),
         "Near": fields(found),
         "Near.counts": lambda: found.counts,
         "Orthographic": lambda: bh.render(s, camera=bh.Orthographic("left"), **options),

@@ -318,6 +318,21 @@ class Failures(ProgramTest):
         self.assertRegex(str(caught[0].message), "selects no sphere")
         self.assertEqual(caught[0].filename, __file__)
 
+    def test_masks_and_positions_as_selections(self):
+        s = bh.read("demo")
+        water = bh.select(s, "water")
+        expected = bh.render(s, size=SIZE, samples=1, select="not water", looks=bh.Look("chain A", colour="red"))
+        chain = bh.select(s, "chain A")
+        for select, look in ((~water, chain), (np.flatnonzero(~water), np.flatnonzero(chain).tolist())):
+            found = bh.render(s, size=SIZE, samples=1, select=select, looks=bh.Look(select=look, colour="red"))
+            np.testing.assert_array_equal(np.asarray(found), np.asarray(expected))
+        self.assertEqual(bh.Look([1, 2, 3], colour="red"), bh.Look(np.array([3, 2, 1]), colour="red"))
+        for thing, select in ((s, water[1:]), (s, [len(s)]), (s, [-1]), (s, 0.5), ("demo", water)):
+            with self.assertRaisesRegex(bh.UsageError, "select: "):
+                bh.render(thing, size=SIZE, select=select)
+        with self.assertRaisesRegex(bh.UsageError, "select: expected a mask of shape"):
+            bh.render(s, size=SIZE, looks=bh.Look(water[1:], colour="red"))
+
     def test_an_unknown_instruction_set(self):
         done = subprocess.run(
             [sys.executable, "-c", "import bihive as bh\nbh.render('demo')"],

@@ -210,6 +210,38 @@ class Attributes(unittest.TestCase):
         with self.assertRaises(TypeError):
             list(s)
 
+    def test_more_columns_and_other_places(self):
+        s = bh.read("demo")
+        charge = np.arange(len(s)) % 3 - 1.0
+        more = s.with_columns({"charge": charge, "b_factor": np.zeros(len(s)), "kind": ["a"] * len(s)})
+        np.testing.assert_array_equal(more["charge"], charge)
+        self.assertEqual((set(more["b_factor"]), set(more["kind"])), ({0.0}, {"a"}))
+        np.testing.assert_array_equal(more.xyz.view(np.int64), s.xyz.view(np.int64))
+        self.assertEqual((more.name, more.format, more.rules), (s.name, s.format, s.rules))
+        self.assertNotIn("charge", s.columns)
+        self.assertNotIn("kind", more.with_columns({"kind": None}).columns)
+        self.assertEqual(more.with_columns({"charge": ["x"] * len(s)})["charge"][0], "x")
+        moved = more.moved(s.xyz + 1)
+        np.testing.assert_allclose(moved.xyz, s.xyz + 1, rtol=1e-6)
+        np.testing.assert_array_equal(moved.radius, s.radius)
+        self.assertEqual(int(bh.select(moved, "kind a and chain A").sum()), int(bh.select(s, "chain A").sum()))
+        for call, argument in [
+            (lambda: s.with_columns({"x": charge}), "columns"),
+            (lambda: s.with_columns({"charge": charge[1:]}), "charge"),
+            (lambda: s.with_columns({"mass": None}), "columns"),
+            (lambda: s.with_columns([1]), "columns"),
+            (lambda: s.moved(s.xyz[1:]), "xyz"),
+            (lambda: s.moved(s.xyz, -1), "radius"),
+        ]:
+            with self.assertRaises(ValueError) as caught:
+                call()
+            self.assertIn(argument, str(caught.exception))
+
+    def test_symbols_of_elements(self):
+        self.assertEqual(bh.Spheres(np.zeros((3, 3)), 1, element=["O", "Ca", 0][:2] + ["C"]).elements.tolist(), ["O", "Ca", "C"])
+        self.assertEqual(bh.Spheres(np.zeros((2, 3)), 1, element=[0, 6]).elements.tolist(), ["", "C"])
+        self.assertIsNone(bh.Spheres(np.zeros((2, 3)), 1).elements)
+
     def test_a_bad_selection_shows_its_place(self):
         s = bh.Spheres(np.zeros((2, 3)), 1)
         with self.assertRaises(bh.UsageError) as caught:

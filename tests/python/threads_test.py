@@ -85,7 +85,9 @@ class Threads(ProgramTest):
         arguments = {"__getitem__": ("charge",), "core.select": ("element C and charge > 0", "select", True), "core.written": ("csv",),
                      "core.measured": (np.array([[0, 1, 2], [4, 3, 9]]), True), "core.statistics": ([],), "core.what_there_is": ("element Fe",),
                      "core.column": ("part",)}
-        calls = calls_of(s, self.folder, arguments, left_out={"save", "core.statistics", "core.part"})
+        calls = calls_of(s, self.folder, arguments, left_out={"save", "moved", "with_columns", "core.statistics", "core.part", "core.moved", "core.with_columns"})
+        calls["moved"] = lambda: s.moved(s.xyz + 1).xyz
+        calls["with_columns"] = lambda: s.with_columns({"more": s.radius})["more"]
         calls["save"] = lambda: s.save(self.path_of_thread("csv"))
         calls["subset"] = lambda: s[np.arange(100)].xyz
         calls["select"] = lambda: bh.select(s, "within 2 of (index 0)")
@@ -96,14 +98,19 @@ class Threads(ProgramTest):
 
     def test_tree(self):
         tree = bh.Tree(spheres(), threads=2)
-        points = np.zeros((20, 3))
+        points, xyz = np.zeros((20, 3)), tree.spheres.xyz
         arguments = {"closest": RAYS, "occluded": RAYS, "all_hits": RAYS, "nearest": (points, 3), "within": (points, 1.0),
-                     "contains": (points,), "overlaps": (points, 0.5)}
+                     "contains": (points,), "overlaps": (points, 0.5), "count_within": (points, 0.5), "pairs": (0.1,)}
         ray = (*RAYS, None, None, None, None)
         arguments |= {"core.closest": (*ray, True, False), "core.occluded": (*ray, False, True),
                       "core.all_hits": (*ray, False),
-                      "core.nearest": (points, 2, 9.0, True), "core.within": (points, np.ones(20), False)}
-        calls = calls_of(tree, self.folder, arguments)
+                      "core.surfaces": (*RAYS, None, np.full(len(RAYS[0]), np.inf), np.full(len(RAYS[0]), -1), False, True),
+                      "core.nearest": (points, 2, 9.0, None, True), "core.within": (points, np.ones(20), None, False),
+                      "core.count_within": (points, np.ones(20), None, True), "core.pairs": (0.1, None, False)}
+        calls = calls_of(tree, self.folder, arguments, left_out={"update"})
+        moving = bh.Tree(spheres(), threads=2)
+        calls["update"] = lambda: moving.update(xyz)  # meanwhile others ask the same tree
+        calls["updated"] = lambda: moving.closest(*RAYS)
         del calls["pickled"]
         self.together(calls)
 

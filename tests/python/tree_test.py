@@ -141,7 +141,7 @@ class Queries(unittest.TestCase):
         one = self.tree.closest(origin[0], direction)
         many = self.tree.closest(np.tile(origin[0], (1000, 1)), direction)
         np.testing.assert_array_equal(one, many)
-        self.assertEqual(self.tree.closest(origin[0], direction[0])[0].shape, (1,))
+        self.assertEqual(self.tree.closest(origin[0], direction[0])[0].shape, ())
         self.assertEqual(self.tree.closest(np.zeros((0, 3)), direction[0])[0].shape, (0,))
 
     def test_rays_that_hit_nothing(self):
@@ -153,14 +153,14 @@ class Queries(unittest.TestCase):
         self.assertEqual((t.tolist(), ids.tolist()), ([np.inf] * 5, [-1] * 5))
         self.assertFalse(everywhere.occluded(origin, direction).any())
         self.assertEqual(len(everywhere.all_hits(origin, direction).t), 0)
-        self.assertEqual(everywhere.closest([0, 0, 0], [1, 0, 0], t_min=3, t_max=2)[1].tolist(), [-1])
+        self.assertEqual(everywhere.closest([0, 0, 0], [1, 0, 0], t_min=3, t_max=2).id, -1)
 
     def test_leaves(self):
         tree = bh.Tree(bh.Spheres([[0, 0, 0], [9, 0, 0]], radius=[1, 2]))
-        self.assertEqual(tree.closest([0, 1, 0], [1, 0, 0], leaves=0)[1].tolist(), [1])
+        self.assertEqual(tree.closest([0, 1, 0], [1, 0, 0], leaves=0).id, 1)
         t, ids = tree.closest([-1, 0, 0], [1, 0, 0], leaves=[0], inside=True)
-        self.assertEqual((t.tolist(), ids.tolist()), ([2.0], [0]))
-        self.assertEqual(tree.closest([-1, 0, 0], [1, 0, 0], leaves=[-1])[0].tolist(), [0.0])
+        self.assertEqual((t, ids), (2.0, 0))
+        self.assertEqual(tree.closest([-1, 0, 0], [1, 0, 0], leaves=[-1]).t, 0.0)
 
     def test_a_part_by_attribute(self):
         origin, direction = rays(3000)
@@ -173,7 +173,7 @@ class Queries(unittest.TestCase):
         np.testing.assert_array_equal(tree.occluded(origin, direction), ids >= 0)
         hit = int(np.flatnonzero(ids >= 0)[0])
         again = tree.closest(origin[hit], direction[hit], leaves=ids[hit])
-        self.assertNotEqual(again[1][0], ids[hit])
+        self.assertNotEqual(again.id, ids[hit])
         nobody = bh.Tree(self.spheres, select="charge > 1e9")
         self.assertFalse(nobody.occluded(origin, direction, leaves=3).any())
 
@@ -282,8 +282,8 @@ class Queries(unittest.TestCase):
         np.testing.assert_array_equal(hits.t[hits.begin[:-1]][ids[:1000] >= 0], t[:1000][ids[:1000] >= 0])
         # A ray goes on from an image that it met.
         one = bh.Tree(bh.Spheres([[1, 1, 1]], radius=1, cell=[4, 4, 4]))
-        self.assertEqual(one.closest([14, 1, 1], [1, 0, 0], leaves=0, periodic=True)[0].tolist(), [2])
-        self.assertEqual(one.closest([14, 1, 1], [1, 0, 0])[1].tolist(), [-1])  # as in pictures
+        self.assertEqual(one.closest([14, 1, 1], [1, 0, 0], leaves=0, periodic=True).t, 2)
+        self.assertEqual(one.closest([14, 1, 1], [1, 0, 0]).id, -1)  # as in pictures
         channel = [[1, 1, 1], [3, 3, 3]], [1, 0, 0]
         for query in (one.closest, one.occluded):
             with self.assertRaisesRegex(ValueError, "t_max: ray 1 passes more than 16384 periodic cells"):
@@ -321,7 +321,173 @@ class Queries(unittest.TestCase):
         self.assertEqual(self.tree.contains(np.zeros((0, 3))).begin.tolist(), [0])
         two = bh.Tree(bh.Spheres([[0.0, 0, 0], [5, 0, 0]], radius=1))
         distance, ids = two.nearest([2, 0, 0], 3)
-        self.assertEqual((distance.tolist(), ids.tolist()), ([[1.0, 2.0, np.inf]], [[0, 1, -1]]))
+        self.assertEqual((distance.tolist(), ids.tolist()), ([1.0, 2.0, np.inf], [0, 1, -1]))
+
+    def test_any_leading_shape(self):
+        origin, direction = rays(60)
+        flat = self.tree.closest(origin, direction, t_max=np.arange(60) * 0.2)
+        grid = self.tree.closest(origin.reshape(3, 20, 3), direction.reshape(3, 20, 3), t_max=np.arange(60).reshape(3, 20) * 0.2)
+        self.assertEqual((grid.t.shape, grid.id.shape), ((3, 20), (3, 20)))
+        np.testing.assert_array_equal(grid.id.reshape(-1), flat.id)
+        np.testing.assert_array_equal(grid.normals().reshape(-1, 3), flat.normals())
+        # Every origin with every direction.
+        every = self.tree.occluded(origin[:, None], direction[:7])
+        self.assertEqual(every.shape, (60, 7))
+        np.testing.assert_array_equal(every[5], self.tree.occluded(origin[5], direction[:7]))
+        hits = self.tree.all_hits(origin.reshape(3, 20, 3), direction.reshape(3, 20, 3))
+        np.testing.assert_array_equal(hits.ray, self.tree.all_hits(origin, direction).ray)
+        # A single ray and a single point give numbers.
+        t, i = self.tree.closest(origin[0], direction[0])
+        self.assertEqual((np.ndim(t), np.ndim(i)), (0, 0))
+        self.assertIsInstance(float(t), float)
+        self.assertIn(bool(self.tree.occluded(origin[0], direction[0])), (True, False))
+        distance, i = self.tree.nearest(origin[0])
+        self.assertEqual((np.ndim(distance), np.ndim(i)), (0, 0))
+        self.assertEqual(self.tree.nearest(origin[0], 4)[1].shape, (4,))
+        self.assertEqual(self.tree.nearest(origin.reshape(3, 20, 3), 4)[0].shape, (3, 20, 4))
+        self.assertEqual(self.tree.nearest(origin.reshape(3, 20, 3))[0].shape, (3, 20))
+        self.assertEqual(self.tree.count_within(origin.reshape(3, 20, 3), 0.5).shape, (3, 20))
+        self.assertEqual(self.tree.within(origin.reshape(3, 20, 3), 0.5).counts.shape, (60,))
+
+    def test_surfaces_of_hits(self):
+        origin, direction = rays(4000)
+        hits = self.tree.closest(origin, direction)
+        hit = hits.id >= 0
+        self.assertGreater(int(hit.sum()), 100)
+        where, normal = hits.positions(), hits.normals()
+        self.assertTrue(np.isnan(where[~hit]).all() and np.isnan(normal[~hit]).all() and np.isnan(hits.exits()[~hit]).all())
+        centre, radius = self.xyz[hits.id[hit]], self.radius[hits.id[hit]]
+        # On the sphere: to the rounding of numbers of this size, whose last bits are 2**-51 apart.
+        np.testing.assert_allclose(np.linalg.norm(where[hit] - centre, axis=1), radius, rtol=0, atol=4e-15)
+        np.testing.assert_allclose(np.linalg.norm(normal[hit], axis=1), 1, rtol=0, atol=1e-15)
+        along = origin[hit].astype(float) + hits.t[hit, None] * direction[hit].astype(float)
+        np.testing.assert_allclose(where[hit], along, rtol=0, atol=1e-6)
+        # The exit is where the same ray, from inside, ends.
+        out = self.tree.closest(where[hit], direction[hit], leaves=hits.id[hit], inside=True)
+        ends = out.id == hits.id[hit]  # others lie inside of none here
+        np.testing.assert_allclose((hits.exits() - hits.t)[hit][ends], out.t[ends], rtol=0, atol=1e-5)
+        # All hits know them too, and of a subset.
+        every = self.tree.all_hits(origin, direction)
+        first = every.begin[:-1][every.counts > 0]
+        np.testing.assert_array_equal(every.positions()[first], where[hit])
+        some = bh.Tree(self.spheres, select=self.spheres["charge"] > 0).closest(origin, direction)
+        np.testing.assert_array_equal(some.normals()[some.id == hits.id], normal[some.id == hits.id])
+
+    def test_surfaces_of_images_and_far_from_zero(self):
+        one = bh.Tree(bh.Spheres([[1, 1, 1]], radius=1, cell=[4, 4, 4]))
+        hits = one.closest([14.5, 1, 1], [1, 0, 0], periodic=True)
+        self.assertEqual((hits.positions().tolist(), hits.normals().tolist()), ([16, 1, 1], [-1, 0, 0]))
+        far = bh.Tree(bh.Spheres([[5e6, 6e6, 0], [5e6 + 3, 6e6, 0]], radius=0.5))
+        hits = far.closest([5e6 - 2, 6e6, 0], [1, 0, 0])
+        self.assertEqual(hits.positions().tolist(), [5e6 - 0.5, 6e6, 0])
+
+    def test_rays_that_have_changed_are_refused(self):
+        origin, direction = rays(300)
+        hits = self.tree.closest(origin, direction)
+        before = hits.positions()
+        origin[:] = np.nan_to_num(before)
+        with self.assertRaisesRegex(bh.UsageError, "arrays have changed"):
+            hits.normals()
+        with self.assertRaisesRegex(bh.UsageError, "know no rays"):
+            pickle.loads(pickle.dumps(hits)).normals()
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(hits)).t, hits.t)
+
+    def test_derivatives_are_those_of_differences(self):
+        origin, direction = rays(3000)
+        hits = self.tree.closest(origin, direction)
+        by = hits.derivatives()
+        towards = (hits.normals() * direction).sum(axis=1)
+        for ray in np.flatnonzero((hits.id >= 0) & (np.abs(towards) > 0.5))[:40]:
+            i, h = hits.id[ray], 2.0**-10  # coordinates are kept in float32
+            for axis in range(3):
+                step = np.eye(3)[axis] * h
+                ends = [
+                    bh.Tree(bh.Spheres(self.xyz[[i]] + sign * step, radius=self.radius[i])).closest(origin[ray], direction[ray])
+                    for sign in (1, -1)
+                ]
+                self.assertAlmostEqual(float(ends[0].t - ends[1].t) / (2 * h), by.t_by_centre[ray, axis], delta=0.02)
+                turn = (ends[0].normals() - ends[1].normals()) / (2 * h)
+                np.testing.assert_allclose(turn, by.normal_by_centre[ray, :, axis], rtol=0.02, atol=0.2)
+            np.testing.assert_allclose(by.t_by_radius[ray], 1 / towards[ray], rtol=1e-12)
+        self.assertEqual(by.normal_by_radius.shape, (3000, 3))
+
+    def test_the_first_hits(self):
+        origin, direction = rays(2000)
+        every, two = self.tree.all_hits(origin, direction), self.tree.all_hits(origin, direction, k=2)
+        self.assertEqual(two.counts.tolist(), np.minimum(every.counts, 2).tolist())
+        self.assertGreater(int((every.counts > 2).sum()), 10)
+        for ray in np.flatnonzero(every.counts > 2)[:20]:
+            self.assertEqual(
+                two.id[two.begin[ray] : two.begin[ray + 1]].tolist(), every.id[every.begin[ray] : every.begin[ray] + 2].tolist()
+            )
+        self.assertEqual(two.normals().shape, (len(two.t), 3))
+
+    def test_masks_and_own_spheres(self):
+        points = self.xyz
+        mask = self.spheres["charge"] > 0
+        distances = self.distances(points)
+        for given in (mask, np.flatnonzero(mask), "charge > 0"):
+            distance, ids = self.tree.nearest(points, mask=given)
+            np.testing.assert_array_equal(ids, np.where(mask, distances, np.inf).argmin(axis=1))
+        near = self.tree.within(points, 0.3, mask=mask)
+        np.testing.assert_array_equal(near.counts, (distances[:, mask] <= 0.3).sum(axis=1))
+        np.testing.assert_array_equal(self.tree.count_within(points, 0.3, mask=mask), near.counts)
+        # Each sphere's neighbours without itself.
+        own = np.arange(len(points))
+        others = distances.copy()
+        others[own, own] = np.inf
+        for k in (1, 3):
+            distance, ids = self.tree.nearest(points, k, exclude=own)
+            expected = others.argsort(axis=1, kind="stable")[:, :k]
+            np.testing.assert_array_equal(ids.reshape(-1, k), expected)
+            np.testing.assert_array_equal(distance.reshape(-1, k), np.take_along_axis(others, expected, axis=1))
+        near = self.tree.within(points, 0.3, exclude=own)
+        np.testing.assert_array_equal(near.counts, (others <= 0.3).sum(axis=1))
+        self.assertFalse((near.id == np.repeat(own, near.counts)).any())
+        np.testing.assert_array_equal(self.tree.count_within(points, 0.3, exclude=own), near.counts)
+        np.testing.assert_array_equal(self.tree.nearest(points, exclude=-1)[1], distances.argmin(axis=1))
+        # Fewer spheres than asked for.
+        two = bh.Tree(bh.Spheres([[0.0, 0, 0], [5, 0, 0]], radius=1))
+        self.assertEqual(two.nearest([[0, 0, 0], [5, 0, 0]], 2, exclude=[0, 1])[1].tolist(), [[1, -1], [0, -1]])
+        # Of a periodic set an image of itself is a neighbour.
+        one = bh.Tree(bh.Spheres([[0.0, 0, 0]], radius=0.1, cell=[1, 1, 1]))
+        self.assertEqual(one.within([0, 0, 0], 1, to="centre", exclude=0).counts.tolist(), [6])
+        self.assertEqual(one.nearest([0, 0, 0], to="centre", exclude=0), (1.0, 0))
+
+    def test_pairs(self):
+        between = np.linalg.norm(self.xyz[:, None] - self.xyz[None], axis=-1)
+        gaps = between - self.radius[:, None] - self.radius[None]
+        for to, all_distances in (("centre", between), ("surface", gaps)):
+            for reach in (-0.05, 0.0, 0.3):
+                pairs = self.tree.pairs(reach, to=to)
+                first, second = np.nonzero(np.triu(all_distances <= reach, 1))
+                np.testing.assert_array_equal(pairs.first, first)
+                np.testing.assert_array_equal(pairs.second, second)
+                np.testing.assert_allclose(pairs.distance, all_distances[first, second], rtol=0, atol=1e-12)
+        self.assertGreater(len(pairs.first), 100)
+        some = self.tree.pairs(0.3, mask="charge > 0")
+        part = bh.Tree(self.spheres, select="charge > 0").pairs(0.3)
+        np.testing.assert_array_equal(some.second, part.second)
+        # A crystal: twelve neighbours for each of its atoms, each pair once.
+        a, cube = 1.5, np.array([[0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])
+        primitive = bh.Tree(bh.Spheres([[0.0, 0, 0]], radius=0.1, cell=a * np.array([[0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0]])))
+        self.assertEqual(len(primitive.pairs(0.8 * a, to="centre").first), 6)
+        crystal = bh.Tree(bh.Spheres(a * cube, radius=0.1, cell=[a] * 3))
+        self.assertEqual(len(crystal.pairs(0.8 * a, to="centre").first), 24)
+
+    def test_update(self):
+        spheres = bh.Spheres(self.xyz, radius=self.radius, columns={"charge": self.spheres["charge"]})
+        tree = bh.Tree(spheres, select="charge > 0", max_prims=2)
+        origin, direction = rays(2000)
+        kept = tree.closest(origin, direction)
+        moved = self.xyz + RNG.normal(size=self.xyz.shape) * 0.1
+        tree.update(moved)
+        again = bh.Tree(bh.Spheres(moved, radius=spheres.radius), select=spheres["charge"] > 0)
+        np.testing.assert_array_equal(tree.closest(origin, direction).t, again.closest(origin, direction).t)
+        np.testing.assert_array_equal(tree.spheres["charge"], spheres["charge"])
+        kept.positions()  # of the tree that answered
+        tree.update(moved, radius=0.5)
+        self.assertEqual(set(tree.spheres.radius), {0.5})
 
     def test_bad_points_name_the_argument(self):
         p = np.zeros((4, 3))
@@ -354,6 +520,19 @@ class Queries(unittest.TestCase):
             (lambda: self.tree.closest(o, d, leaves=300), "leaves"),
             (lambda: self.tree.closest(o, d, leaves=0.5), "leaves"),
             (lambda: self.tree.closest(o, d, inside=[True]), "inside"),
+            (lambda: self.tree.closest(o[:, None], np.ones((4, 3, 3))[:, :2], t_max=np.ones(4)), "t_max"),
+            (lambda: self.tree.all_hits(o, d, k=0), "k"),
+            (lambda: self.tree.pairs(np.nan), "reach"),
+            (lambda: self.tree.pairs([1, 2]), "reach"),
+            (lambda: self.tree.nearest(o, exclude=[0, 1]), "exclude"),
+            (lambda: self.tree.nearest(o, exclude=300), "exclude"),
+            (lambda: self.tree.nearest(o, mask=[True]), "mask"),
+            (lambda: self.tree.within(o, 1, mask=[300]), "mask"),
+            (lambda: self.tree.count_within(o, np.nan), "limits"),
+            (lambda: self.tree.contains(o, mask="mass > 1"), "mask"),
+            (lambda: self.tree.update(o), "xyz"),
+            (lambda: self.tree.update(self.xyz, [1, 2]), "radius"),
+            (lambda: bh.Tree(self.spheres, select=np.ones(3, bool)), "select"),
             (lambda: self.tree.closest(o, d, order="best"), "order"),
             (lambda: bh.Tree(self.spheres, engine="fast"), "engine"),
             (lambda: bh.Tree(self.spheres, max_prims=0), "max_prims"),

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "bihive/geometry/ray.h"
@@ -155,6 +157,36 @@ TEST(PeriodicPoints, HostileQuestionsEnd) {
   const PeriodicSet scattered = set_of({Vec3d{0.5, 0.5, 0.5}, Vec3d{1e30, 0, 0}}, 0.1, cell);
   EXPECT_FALSE(PeriodicImages::of(scattered.spheres).value());
   EXPECT_EQ(select_spheres(scattered.spheres, "within 2 of index 1").value(), (std::vector<std::uint8_t>{0, 1}));
+}
+
+// A pair of a sphere and an image of itself is found at both ends, and counts once.
+TEST(PeriodicPoints, PairsAreThoseOfAllImages) {
+  SplitMix64 random(17);
+  for (const Cell& cell : test::periodic_cells()) {
+    std::vector<Vec3d> centres;
+    for (int i = 0; i < 9; ++i) centres.push_back(test::point_in(cell, random));
+    centres.push_back(centres[4]);
+    const PeriodicSet set = set_of(centres, 0.1, cell);
+    for (const DistanceTo to : {DistanceTo::centre, DistanceTo::surface}) {
+      for (const double reach : {0.0, 1.0, 3.0}) {
+        const SpherePairs pairs = sphere_pairs(*set.tree, set.spheres, reach, options_of(set, to)).value();
+        std::map<std::array<std::int64_t, 2>, std::int64_t> found, expected;
+        for (std::size_t k = 0; k < pairs.first.size(); ++k) ++found[{pairs.first[k], pairs.second[k]}];
+        for (std::int64_t i = 0; i < set.spheres.size(); ++i) {
+          const double limit = to == DistanceTo::surface ? reach + set.spheres.radius(i) : reach;
+          for (const wide::NearSphere& near : all_within(set, set.spheres.centre(i), limit, to, 8))
+            if (near.id >= i) ++expected[{i, near.id}];
+          const std::int64_t own = (expected[{i, i}] - 1) / 2;
+          if (own > 0)
+            expected[{i, i}] = own;
+          else
+            expected.erase({i, i});
+        }
+        EXPECT_EQ(found, expected) << reach;
+        EXPECT_GT(expected.size() + (reach < 3 ? 11 : 0), 10U);
+      }
+    }
+  }
 }
 
 }  // namespace

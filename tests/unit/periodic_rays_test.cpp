@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "bihive/geometry/hit_surface.h"
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
 #include "bihive/math/rng.h"
@@ -207,6 +209,35 @@ TEST(PeriodicRays, SpheresAllOverAreRefused) {
   EXPECT_TRUE(PeriodicSet({Vec3d{}, Vec3d{9, 3, 0}}, {0.1, 0.1}, cell).images->check_rays());
   EXPECT_FALSE(PeriodicSet({Vec3d{}, Vec3d{99, 99, 0}}, {0.1, 0.1}, cell).images->check_rays());
   EXPECT_FALSE(PeriodicSet({Vec3d{}}, {30}, cell).images->check_rays());
+}
+
+// The image that was hit is found again by its root alone.
+TEST(PeriodicRays, AHitTellsItsImage) {
+  SplitMix64 random(23);
+  for (const Cell& cell : test::periodic_cells()) {
+    std::vector<Vec3d> centres;
+    std::vector<double> radii;
+    for (int i = 0; i < 9; ++i) centres.push_back(test::point_in(cell, random)), radii.push_back(0.1 * (1 + i % 4));
+    const PeriodicSet set(centres, radii, cell);
+    const SphereSet& spheres = set.spheres;
+    int of_images = 0;
+    for (int i = 0; i < 200; ++i) {
+      Ray ray{to_float(test::point_in(cell, random)), direction_of(random, i)};
+      ray.t_max = 30;
+      const Hit hit = closest_hit_of(set, ray);
+      if (!hit.found()) continue;
+      const ScaledRay scaled(ray, spheres.scale());
+      const std::optional<Vec3d> centre = set.images->image_of_hit(scaled, hit.t, hit.sphere_id);
+      ASSERT_TRUE(centre);
+      const std::optional<HitSurface> surface =
+          hit_surface(scaled, hit.t, *centre, spheres.stored_radius(hit.sphere_id));
+      ASSERT_TRUE(surface);
+      EXPECT_LT(length(surface->position - (scaled.origin + hit.t * scaled.direction)), 1e-12);
+      of_images += *centre != spheres.stored_centre(hit.sphere_id);
+      EXPECT_FALSE(set.images->image_of_hit(scaled, hit.t * (1 + 0x1p-20), hit.sphere_id));
+    }
+    EXPECT_GT(of_images, 10);
+  }
 }
 
 }  // namespace

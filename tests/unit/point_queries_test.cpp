@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <vector>
 
 #include "bihive/geometry/ray.h"
+#include "bihive/math/rng.h"
 #include "bihive/wide/wide_builder.h"
 #include "support/world.h"
 
@@ -163,6 +166,84 @@ TEST(PointQueries, SolventAccessibleSurfaceOfTwoOverlappingSpheres) {
   }
   // Each sphere loses a cap of height 1/2.
   EXPECT_NEAR(area, 2 * (4 * kPi - kPi), 2e-3 * 6 * kPi);
+}
+
+SphereSet random_set(int count, std::uint64_t seed) {
+  test::World world;
+  SplitMix64 random(seed);
+  for (int i = 0; i < count; ++i)
+    world.add(4 * random.next_double(), 4 * random.next_double(), 4 * random.next_double(),
+              i % 7 == 0 ? 0 : 0.5 * random.next_double());
+  for (int i = 0; i < 5; ++i) world.add(1, 1, 1, 0.25);  // coincide
+  return test::sphere_set(world);
+}
+
+std::vector<std::array<std::int64_t, 2>> ids_of(const SpherePairs& pairs) {
+  std::vector<std::array<std::int64_t, 2>> ids;
+  for (std::size_t k = 0; k < pairs.first.size(); ++k) ids.push_back({pairs.first[k], pairs.second[k]});
+  return ids;
+}
+
+TEST(PointQueries, PairsByCentresAndBySurfaces) {
+  test::World world;
+  for (const auto& s : std::vector<std::vector<double>>{{0, 0, 0, 2}, {3, 0, 0, 1}, {3.5, 0, 0, 0.25}, {9, 0, 0, 1}})
+    world.add(s[0], s[1], s[2], s[3]);
+  const SphereSet set = test::sphere_set(world);
+  WideBuilder builder;
+  const auto tree = builder.build(set).value();
+  const auto by_centre = sphere_pairs(*tree, set, 3.0, {DistanceTo::centre, nullptr, 1});
+  EXPECT_EQ(ids_of(*by_centre), (std::vector<std::array<std::int64_t, 2>>{{0, 1}, {1, 2}}));
+  EXPECT_THAT(by_centre->distance, ElementsAre(3, 0.5));
+  // Contacts: spheres that touch, and one that holds the other.
+  const auto contacts = sphere_pairs(*tree, set, 0.0, {DistanceTo::surface, nullptr, 1});
+  EXPECT_EQ(ids_of(*contacts), (std::vector<std::array<std::int64_t, 2>>{{0, 1}, {1, 2}}));
+  EXPECT_THAT(contacts->distance, ElementsAre(0, -0.75));
+  const std::uint8_t mask[] = {1, 0, 1, 1};
+  EXPECT_EQ(ids_of(*sphere_pairs(*tree, set, 4.5, {DistanceTo::surface, mask, 1})),
+            (std::vector<std::array<std::int64_t, 2>>{{0, 2}, {2, 3}}));
+  EXPECT_TRUE(sphere_pairs(*tree, set, -kInf)->first.empty());
+  EXPECT_FALSE(sphere_pairs(*tree, set, std::numeric_limits<double>::quiet_NaN()).ok());
+}
+
+TEST(PointQueries, PairsAreThoseOfTestingAll) {
+  const SphereSet set = random_set(400, 7);
+  WideBuilder builder;
+  const auto tree = builder.build(set).value();
+  for (const DistanceTo to : {DistanceTo::centre, DistanceTo::surface}) {
+    for (const double reach : {0.0, 0.3, 1.5}) {
+      std::vector<std::array<std::int64_t, 2>> expected;
+      for (std::int64_t i = 0; i < set.size(); ++i) {
+        for (std::int64_t j = i + 1; j < set.size(); ++j) {
+          const double limit = to == DistanceTo::surface ? reach + set.radius(i) : reach;
+          const Vec3d from = set.stored_centre(i), at = set.stored_centre(j);
+          if (sphere_distance(from, at, set.stored_radius(j), to) <= limit * set.scale()) expected.push_back({i, j});
+        }
+      }
+      for (const int threads : {1, 3}) {
+        const auto pairs = sphere_pairs(*tree, set, reach, {to, nullptr, threads});
+        EXPECT_EQ(ids_of(*pairs), expected) << reach;
+      }
+    }
+  }
+}
+
+TEST(PointQueries, CountsAreTheLengthsOfTheLists) {
+  const SphereSet set = random_set(300, 9);
+  WideBuilder builder;
+  const auto tree = builder.build(set).value();
+  std::vector<double> points, limits;
+  for (std::int64_t i = 0; i < 100; ++i) {
+    for (int axis = 0; axis < 3; ++axis) points.push_back(set.centre(i)[axis] + 0.1);
+    limits.push_back(0.02 * static_cast<double>(i));
+  }
+  const PointSpan span = PointSpan::rows(points.data(), 100);
+  const auto lists = spheres_within(*tree, span, limits.data());
+  const auto counts = count_within(*tree, span, limits.data());
+  ASSERT_EQ(counts->size(), 100U);
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ((*counts)[i], lists->begin[i + 1] - lists->begin[i]);
+  EXPECT_GT(lists->sphere_id.size(), 100U);
+  limits[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(count_within(*tree, span, limits.data()).ok());
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 Spheres, read       spheres of arrays, of a file; Spheres.save, convert: into a file
 render, film        pictures and films of them; Orthographic, Perspective, Look, Style determine their appearance
 verify, again       a PNG of a picture drawn again and compared, or with changes
-Tree                hits of rays
+Tree                hits of rays, spheres near points, pairs of spheres
 view                the page in a browser, with spheres from memory
 select, stats       spheres that match an expression; statistics of the trees
 distance            between centres of spheres; angle, dihedral
@@ -23,16 +23,19 @@ from ._colours import linear
 from ._errors import Error, FileError, InputError, InputWarning, MissingError, UsageError
 from ._figures import Verdict, again, verify
 from ._film import film
+from ._hits import ClosestHits, HitDerivatives, Hits, Near, Pairs
 from ._measures import angle, dihedral, distance
 from ._picture import Picture
 from ._render import render
 from ._spheres import Spheres, colour_map, convert, read, select, stats
-from ._tree import Hits, Near, Tree
+from ._tree import Tree
 from ._view import View, view
 
 __all__ = [
+    "ClosestHits",
     "Error",
     "FileError",
+    "HitDerivatives",
     "Hits",
     "InputError",
     "InputWarning",
@@ -40,6 +43,7 @@ __all__ = [
     "MissingError",
     "Near",
     "Orthographic",
+    "Pairs",
     "Perspective",
     "Picture",
     "Spheres",

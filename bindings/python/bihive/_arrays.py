@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 
@@ -74,15 +74,24 @@ def one_each(name: str, value: Any, count: int) -> np.ndarray[Any, Any]:
 
 
 def vectors(name: str, value: Any) -> np.ndarray[Any, Any]:
-    """Shape (n, 3), or (3,) for a single one."""
+    """Shape (..., 3)."""
     array = numbers(name, value)
-    if array.ndim not in (1, 2) or array.shape[-1] != 3:
-        raise bad_argument(name, f"expected shape (n, 3) or (3,), found shape {array.shape}")
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise bad_argument(name, f"expected shape (..., 3), as (n, 3) or (3,), found shape {array.shape}")
     return array
 
 
-def whole_numbers(name: str, value: Any, count: int, least: int, most: int) -> np.ndarray[Any, Any]:
-    """An integer for each of ``count`` things, or one for all, from ``least`` to ``most``."""
+def in_a_row(name: str, array: np.ndarray[Any, Any], shape: tuple[int, ...]) -> np.ndarray[Any, Any]:
+    """Shape (n,): the entries of an array of this shape in C order, or n times one number (which takes no memory)."""
+    if array.ndim == 0 or (shape == () and array.shape == (1,)):
+        return np.broadcast_to(array.reshape(()), (int(np.prod(shape)),))
+    if array.shape != shape:
+        raise bad_argument(name, f"expected one number, or shape {shape}, found shape {array.shape}")
+    return array.reshape(-1)
+
+
+def whole_numbers(name: str, value: Any, count: Optional[int], least: int, most: int) -> np.ndarray[Any, Any]:
+    """An integer for each of ``count`` things (None: as they are), or one for all, from ``least`` to ``most``."""
     array = as_array(name, value)
     if array.size == 0 and array.dtype.kind == "f":
         array = array.astype(np.int64)
@@ -90,6 +99,8 @@ def whole_numbers(name: str, value: Any, count: int, least: int, most: int) -> n
         raise bad_argument(name, f"expected whole numbers, found dtype {array.dtype}")
     if array.size > 0 and (int(array.min()) < least or int(array.max()) > most):
         raise bad_argument(name, f"expected numbers from {least} to {most}, found {array.min()} to {array.max()}")
+    if count is None:
+        return array
     if array.ndim == 0:
         return np.broadcast_to(array, (count,))
     if array.shape != (count,):

@@ -10,6 +10,7 @@ from ._checks import boolean, mapping
 from ._colours import Linear
 from ._errors import UsageError, bad_argument, shortened
 from ._options import ACTIONS, action_words, option
+from ._select import Selected, selected
 
 __all__ = ["Orthographic", "Perspective", "Look", "Style"]
 
@@ -84,15 +85,17 @@ class Perspective:
 class Look:
     """Actions on the spheres of a selection: the options of the command line after ``--select``.
 
-    select: an expression (docs/selections.md). show: False hides them. colour: a name, "#rrggbb", or three numbers as a
+    select: an expression (docs/selections.md), or for spheres in memory a mask of shape (n,) or positions. show: False hides them. colour: a name, "#rrggbb", or three numbers as a
     screen shows them (linear light: linear()). colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
     outline: pixels. crease: an attribute. legend_name: a text. clip: a text such as "plane:1,0,0,2.5", or several.
 
     >>> Look("element C", colour="orange", opacity=0.5).words()
     ['--select=element C', '--colour=orange', '--opacity=0.5']
+    >>> Look([3, 4, 5, 9], show=False).words(count=10)
+    ['--select=index 3..5 9', '--hide']
     """
 
-    select: str = "all"
+    select: Any = "all"
     show: Optional[bool] = None
     colour: Union[str, Vector, Linear, None] = None
     colour_by: Optional[str] = None
@@ -103,9 +106,18 @@ class Look:
     crease: Optional[str] = None
     legend_name: Optional[str] = None
     clip: Union[str, Sequence[str], None] = None
+    _needs: Optional[Selected] = field(default=None, init=False, repr=False)
 
-    def words(self) -> list[str]:
-        words = [option("select", self.select)]
+    def __post_init__(self) -> None:
+        # Masks and positions are kept as text, so that looks stay small, and can be compared and pickled.
+        if not isinstance(self.select, str):
+            needs = selected("select", self.select)
+            object.__setattr__(self, "select", needs.text)
+            object.__setattr__(self, "_needs", needs)
+
+    def words(self, count: Optional[int] = None) -> list[str]:
+        """The options of the command line; `count`: the number of spheres, for masks and positions."""
+        words = [option("select", self.select if self._needs is None else self._needs.of("select", count))]
         if self.show is not None:
             words.append("--show" if boolean("show", self.show) else "--hide")
         for name in ACTIONS:

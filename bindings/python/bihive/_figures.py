@@ -95,7 +95,7 @@ def again(
     camera: Camera = None,
     style: Union[Path, Style, dict[str, Any], None] = None,
     size: Optional[tuple[int, int]] = None,
-    select: Optional[str] = None,
+    select: Any = None,
     looks: Any = None,
     progress: Progress = None,
     **options: Any,

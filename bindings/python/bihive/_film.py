@@ -332,7 +332,7 @@ def film(
     camera: Camera = None,
     style: Any = None,
     size: Optional[tuple[int, int]] = None,
-    select: Optional[str] = None,
+    select: Any = None,
     looks: Any = None,
     progress: Progress = None,
     **options: Any,

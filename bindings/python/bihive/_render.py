@@ -9,11 +9,12 @@ from typing import Any, Callable, Optional, Sequence, Union
 from . import _bihive
 from ._adapt import spheres_of
 from ._camera import Look, Orthographic, Perspective, Style
-from ._checks import several, text_of
+from ._checks import several
 from ._errors import InputWarning, bad_argument, found
 from ._options import ACTIONS, option, words_of
 from ._picture import Picture
 from ._progress import Bar
+from ._select import NOBODY, selected
 from ._spheres import Spheres, check_readable
 
 __all__ = ["render"]
@@ -22,8 +23,10 @@ Camera = Union[Orthographic, Perspective, Picture, str, None]
 Progress = Union[None, bool, Callable[[float], object]]
 
 
-def picture_words(select: Optional[str], camera: Camera, style: Any, looks: Any, options: dict[str, Any]) -> list[str]:
-    """The arguments of `bihive render` for these keywords, without the input."""
+def picture_words(
+    select: Any, camera: Camera, style: Any, looks: Any, options: dict[str, Any], count: Optional[int] = None
+) -> list[str]:
+    """The arguments of `bihive render` for these keywords, without the input. `count`: of spheres in memory."""
     if isinstance(camera, str):
         options = {"view_from": camera, **options}
     elif camera is not None and not isinstance(camera, (Orthographic, Perspective, Picture)):
@@ -41,10 +44,11 @@ def picture_words(select: Optional[str], camera: Camera, style: Any, looks: Any,
     for look in given:
         if not isinstance(look, Look):
             raise bad_argument("looks", f"expected Look(...), found {found(look)}")
-        words += look.words()
+        words += look.words(count)
     if select is not None:
-        _bihive.check_selection(text_of("select", select, "a selection as text"))
-        words += [option("select", f"not ({select})"), "--hide"]
+        if not isinstance(select, str) and selected("select", select).text == NOBODY:
+            raise bad_argument("select", "takes no sphere", "every sphere would be hidden")
+        words += [option("select", f"not ({selected('select', select).of('select', count)})"), "--hide"]
     return words
 
 
@@ -77,7 +81,7 @@ def render(
     camera: Camera = None,
     style: Union[str, os.PathLike[str], Style, dict[str, Any], None] = None,
     size: Optional[tuple[int, int]] = None,
-    select: Optional[str] = None,
+    select: Any = None,
     looks: Any = None,
     progress: Progress = None,
     **options: Any,
@@ -90,7 +94,7 @@ def render(
         colours.
     style: a name ("illustrative"; `bihive styles` lists them), the path of a style file, or a Style or dictionary.
     size: width and height in pixels (1280, 720).
-    select: a selection; all other spheres are hidden.
+    select: an expression, or for spheres in memory a mask of shape (n,) or positions; all other spheres are hidden.
     looks: a Look, or several, done one after the other.
     progress: None: a bar if it takes over a second on a terminal or in a notebook, by tqdm if that is there; False: none;
         or a function, which is called with the finished share, 0 to 1, and in the end with 1.
@@ -109,12 +113,12 @@ def render(
     <bihive.Picture: 64 x 48, 758 spheres of demo>
     """
     _bihive.check_environment()
-    words = picture_words(select, camera, style, looks, {"size": size, **options})
     path: Optional[str] = None
     made: Optional[Spheres] = None
     if isinstance(spheres, (str, os.PathLike)):
         path = check_readable(spheres, "spheres")
     else:
         made = spheres_of(spheres)
+    words = picture_words(select, camera, style, looks, {"size": size, **options}, None if made is None else len(made))
     all_words: list[Union[str, bytes]] = [*words, "--", os.fsencode(path) if path is not None else "spheres"]
     return draw(made, all_words, style_text(style), camera if isinstance(camera, Picture) else None, progress)

@@ -142,6 +142,39 @@ def _exact_numbers(name: str, value: Any, count: int) -> Array:
     return made
 
 
+def _columns(columns: Any, count: int) -> tuple[dict[str, Array], dict[str, list[str]]]:
+    """Attributes of spheres by name: numbers, and texts."""
+    numbers_of: dict[str, Array] = {}
+    texts_of: dict[str, list[str]] = {}
+    for column, values in mapping("columns", columns).items():
+        if not isinstance(column, str) or not column or column in _OF_SETS:
+            raise bad_argument("columns", f"{found(column)} cannot be the name of a column")
+        whole_text("columns", column)
+        array = as_array(column, values)
+        if array.dtype.kind in "USO":
+            texts_of[column] = texts(column, array, count)
+        else:
+            numbers_of[column] = _exact_numbers(column, array, count)
+    return numbers_of, texts_of
+
+
+def chosen(name: str, which: Any, spheres: Spheres, periodic: bool = True) -> Array:
+    """bool (n,): the spheres that a selection takes: an expression, a mask of shape (n,), or positions."""
+    count = len(spheres)
+    if isinstance(which, str):
+        made: Array = spheres._core.select(text_of(name, which), name, periodic)
+        return made
+    try:
+        positions = _positions(as_array(name, which), count)
+    except IndexError as error:
+        raise bad_argument(name, str(error)) from None
+    except TypeError:
+        raise bad_argument(name, f"expected a selection as text, a mask or positions, found {found(which)}") from None
+    made = np.zeros(count, dtype=bool)
+    made[positions] = True
+    return made
+
+
 def _positions(key: Any, count: int) -> Array:
     """int64 (n,), each from 0 to before `count`: of a slice, a mask, one position or several. Takes time by what is chosen."""
     if isinstance(key, slice):
@@ -235,17 +268,7 @@ class Spheres:
             radii = np.zeros(0)
         else:
             raise bad_argument("radius", "is missing", "give one number, an array, or element")
-        numbers_of: dict[str, Array] = {}
-        texts_of: dict[str, list[str]] = {}
-        for column, values in ({} if columns is None else mapping("columns", columns)).items():
-            if not isinstance(column, str) or not column or column in _OF_SETS:
-                raise bad_argument("columns", f"{found(column)} cannot be the name of a column")
-            whole_text("columns", column)
-            array = as_array(column, values)
-            if array.dtype.kind in "USO":
-                texts_of[column] = texts(column, array, count)
-            else:
-                numbers_of[column] = _exact_numbers(column, array, count)
+        numbers_of, texts_of = _columns({} if columns is None else columns, count)
         self._core = _bihive.spheres_from_arrays(
             places,
             radii,
@@ -362,6 +385,51 @@ class Spheres:
         with writing(text):
             _bihive.write_file(os.fsencode(text), content)
         return left_out
+
+    @property
+    def elements(self) -> Optional[Array]:
+        """The symbols of the elements, str (n,), "" where none is known; None: the set has no elements. s["element"] are their
+        numbers."""
+        numbers_of = self._core.element
+        if numbers_of is None:
+            return None
+        symbols = np.array([""] + [_bihive.element_symbol(number) for number in range(1, 119)])
+        made: Array = symbols[numbers_of]
+        return made
+
+    def with_columns(self, columns: Mapping[str, Any]) -> Spheres:
+        """The same spheres with more attributes, or with others of the same names; all else stays, bit for bit.
+
+        columns: as those of Spheres(). None as the values of a name: without it.
+
+        >>> s = Spheres([[0.0, 0, 0], [1, 0, 0]], radius=[1, 2]).with_columns({"charge": [1, -1], "kind": ["a", "b"]})
+        >>> s.with_columns({"charge": None}).columns
+        ['kind']
+        """
+        self._refuse_images()
+        without = [name for name, values in mapping("columns", columns).items() if values is None]
+        for name in without:
+            if name not in self.columns:
+                raise bad_argument("columns", f"there is no column {found(name)} to leave out", f"there are {shortened(', '.join(self.columns))}")
+        numbers_of, texts_of = _columns({name: values for name, values in columns.items() if values is not None}, len(self))
+        return Spheres._of(self._core.with_columns(list(numbers_of.items()), list(texts_of.items()), without))
+
+    def moved(self, xyz: Any, radius: Any = None) -> Spheres:
+        """The same spheres in other places: their attributes, cell and all else stay.
+
+        xyz: shape (n, 3); radius: one number, or shape (n,); left out: they keep theirs.
+
+        >>> Spheres([[0.0, 0, 0]], radius=2, columns={"charge": [1]}).moved([[5, 0, 0]]).bounds.tolist()
+        [[3.0, -2.0, -2.0], [7.0, 2.0, 2.0]]
+        """
+        self._refuse_images()
+        places = numbers("xyz", xyz)
+        if places.shape != (len(self), 3):
+            raise bad_argument("xyz", f"expected shape ({len(self)}, 3), found shape {places.shape}")
+        radii = self.radius if radius is None else one_each("radius", radius, len(self))
+        made = Spheres._of(self._core.moved(places, radii))
+        _warn_of(made._core)
+        return made
 
     def __len__(self) -> int:
         return len(self._core)
@@ -547,16 +615,16 @@ def convert(
     path: Union[str, os.PathLike[str]],
     *,
     format: Optional[str] = None,
-    select: Optional[str] = None,
+    select: Any = None,
     **options: Any,
 ) -> list[str]:
     """Reads a file and writes it in another format: ``read(source, **options)``, then ``Spheres.save(path, format)``.
 
-    select: only the spheres that this selection takes. Returns what the format cannot hold, a sentence each.
+    select: only these spheres: an expression, a mask of shape (n,), or positions. Returns what the format cannot hold, a sentence each.
     """
     spheres = read(check_readable(source, "source"), **options)
     if select is not None:
-        spheres = spheres[spheres._core.select(text_of("select", select, "a selection as text"), "select", True)]
+        spheres = spheres[chosen("select", select, spheres)]
     return spheres.save(path, format)
 
 

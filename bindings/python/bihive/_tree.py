@@ -3,61 +3,33 @@
 from __future__ import annotations
 
 import os
-from typing import Any, NamedTuple, Optional
+from typing import Any, Optional
 
 import numpy as np
 
 from . import _bihive
 from ._adapt import spheres_of
-from ._arrays import one_each, vectors, whole_numbers
-from ._checks import boolean, one_of, text_of
+from ._arrays import in_a_row, numbers, one_each, vectors, whole_numbers
+from ._checks import boolean, one_of
 from ._errors import Error, InputError, bad_argument, found
+from ._hits import ClosestHits, Hits, Near, Pairs, RayQuery
 from ._options import words_of
-from ._spheres import Spheres
+from ._spheres import Spheres, chosen
 
-__all__ = ["Tree", "Hits", "Near"]
+__all__ = ["Tree"]
 
 Array = np.ndarray[Any, Any]
+Shape = tuple[int, ...]
 _ENDS = ("surface", "centre")  # of a distance
 _PLENTY = 2**28  # bytes: smaller answers fit into every machine
-
-
-class Hits(NamedTuple):
-    """Every hit of many rays: by ray, then by t, then by id. Arrays of one length.
-
-    ray: int64, the ray's position. t: float64. id: int64, the sphere's position. begin: int64 (rays + 1): the hits of ray i
-    are those from begin[i] to before begin[i + 1].
-    """
-
-    ray: Array
-    t: Array
-    id: Array
-    begin: Array
-
-
-class Near(NamedTuple):
-    """The spheres near many points: by point, then by position.
-
-    begin: int64 (points + 1): the spheres of point i are those from begin[i] to before begin[i + 1]. id: int64, the sphere's
-    position; of a periodic tree, once for each of its images. distance: float64, below 0 inside a sphere.
-    """
-
-    begin: Array
-    id: Array
-    distance: Array
-
-    @property
-    def counts(self) -> Array:
-        """The number of spheres of each point: int64 (points,)."""
-        made: Array = np.diff(self.begin)
-        return made
 
 
 class Tree:
     """Answers which spheres rays meet. Exact: float64 decides, without an epsilon, and the answers are those of testing every
     sphere, bit for bit.
 
-    spheres: Spheres, or what render() takes besides paths. select: only these spheres count; ids stay positions in all.
+    spheres: Spheres, or what render() takes besides paths. select: only these spheres count (an expression, a mask of shape
+        (n,), or positions); ids stay positions in all.
     periodic: queries about points consider all periodic images of the spheres, where these have a cell. An image is
         returned as the position of its sphere, which may thus occur several times, and the distance to the image. Rays meet
         the spheres alone, as in pictures, unless the query has periodic=True. False: no images.
@@ -69,20 +41,24 @@ class Tree:
     >>> t, i = tree.closest([[-10, 0, 0], [0, 9, 0]], [1, 0, 0])
     >>> t.tolist(), i.tolist()
     ([9.0, inf], [0, -1])
+    >>> tree.closest([-10, 0.6, 0], [1, 0, 0]).normals().round(2).tolist()
+    [-0.8, 0.6, 0.0]
+    >>> tree.pairs(3).distance.tolist()  # between the surfaces
+    [3.0]
     >>> tree.all_hits([-10, 0, 0], [1, 0, 0]).t.tolist()
     [9.0, 14.0]
     >>> box = Tree(Spheres([[0.5, 0, 0], [9.5, 0, 0]], radius=0.1, cell=[10, 10, 10]))
     >>> box.within([0.5, 0, 0], 1.5, to="centre").id.tolist()
     [0, 1]
-    >>> box.closest([5, 0, 0], [1, 0, 0], t_min=5, periodic=True)[1].tolist()  # the first sphere again, at 10.5
-    [0]
+    >>> int(box.closest([5, 0, 0], [1, 0, 0], t_min=5, periodic=True).id)  # the first sphere again, at 10.5
+    0
     """
 
     def __init__(
         self,
         spheres: Any,
         *,
-        select: Optional[str] = None,
+        select: Any = None,
         periodic: bool = True,
         engine: str = "auto",
         max_prims: Any = None,
@@ -94,11 +70,28 @@ class Tree:
         self._ids: Optional[Array] = None
         images = boolean("periodic", periodic)
         if select is not None:
-            expression = text_of("select", select, "a selection as text")
-            self._ids = np.flatnonzero(self._spheres._core.select(expression, "select", images))
-        options = {"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads}
+            self._ids = np.flatnonzero(chosen("select", select, self._spheres, images))
+        self._options = words_of({"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads})
+        self._sees_images = images
+        self._core = self._built(self._spheres)
+
+    def _built(self, spheres: Spheres) -> _bihive.Tree:
         part = None if self._ids is None else self._ids.tolist()
-        self._core = _bihive.build_tree(self._spheres._core, part, images, words_of(options))
+        return _bihive.build_tree(spheres._core, part, self._sees_images, self._options)
+
+    def update(self, xyz: Any, radius: Any = None) -> None:
+        """Moves the spheres, whose attributes stay, and builds the tree anew. Queries that run meanwhile keep the old one.
+
+        xyz: shape (n, 3), of all spheres; radius: one number, or shape (n,); left out: as before. With `select` the same
+        positions count as before.
+
+        >>> tree = Tree(Spheres([[0.0, 0, 0]], radius=1))
+        >>> tree.update([[4.0, 0, 0]])
+        >>> float(tree.closest([0, 0, 0], [1, 0, 0]).t)
+        3.0
+        """
+        spheres = self._spheres.moved(xyz, radius)
+        self._core, self._spheres = self._built(spheres), spheres
 
     @property
     def spheres(self) -> Spheres:
@@ -135,29 +128,34 @@ class Tree:
         inside: Any = None,
         periodic: bool = False,
         order: str = "any",
-    ) -> tuple[Array, Array]:
-        """The nearest hit of each ray: t, float64 (n,), inf for none; and the sphere's position, int64 (n,), -1 for none.
+    ) -> ClosestHits:
+        """The nearest hit of each ray: t, float64, inf for none; and the sphere's position, int64, -1 for none. Of (n, 3) rays
+        arrays (n,), of a single ray two numbers. The answer also knows positions(), normals(), exits() and derivatives().
 
-        origins, directions: shape (n, 3), or (3,) for one that all rays share. Directions may have any length above 0, and t
-            counts in lengths of them: the hit is at origin + t direction. Rays are kept in float32: float64 is rounded once,
-            relative to the spheres' origin if they are far from 0. A ray with NaN, an infinity (or beyond 3.4e38), or a
-            direction of 0 hits nothing.
-        t_min, t_max: the part of the ray that counts, both ends with it: one number, or shape (n,); 0 and inf.
-        leaves: the sphere on which a ray starts, int64, one or (n,); -1: none. It is not met again, or with inside=True (one,
-            or bool (n,)) at its far side alone. Of its images, the one whose surface is nearest to the origin.
+        origins, directions: shape (..., 3), as (n, 3), or (3,) for one that all rays share; they broadcast. Directions may have
+            any length above 0, and t counts in lengths of them: the hit is at origin + t direction. Rays are kept in
+            float32: float64 is rounded once, relative to the spheres' origin if they are far from 0. A ray with NaN, an
+            infinity (or beyond 3.4e38), or a direction of 0 hits nothing.
+        t_min, t_max: the part of the ray that counts, both ends with it: one number, or one for each ray; 0 and inf.
+        leaves: the sphere on which a ray starts, int64, one or one for each ray; -1: none. It is not met again, or with
+            inside=True (one, or one for each ray) at its far side alone. Of its images, the one whose surface is nearest to
+            the origin.
         periodic: rays meet the images of the spheres too, as positions of their spheres.
         order: "blocks" if each 64 neighbours are close to each other, as 8 x 8 pixels are: faster. The answers do not change.
 
         Other Python threads run meanwhile, and Ctrl-C ends it. Error: UsageError for a periodic ray that passes 16,384
         cells without a hit or a t_max.
         """
-        rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
+        rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images, in_blocks = self._images(periodic), _in_blocks(order)
+        core = self._core
         try:
-            t, ids = self._core.closest(*rays, images, in_blocks)
+            t, ids = core.closest(*rays, images, in_blocks)
         except InputError as error:
             raise _of_t_max(error) from None
-        return t, self._positions(ids)
+        hits = ClosestHits(t.reshape(shape)[()], self._positions(ids).reshape(shape)[()])
+        hits._query = RayQuery(core, self._in_part, rays[:2], images)
+        return hits
 
     def occluded(
         self,
@@ -171,13 +169,15 @@ class Tree:
         periodic: bool = False,
         order: str = "any",
     ) -> Array:
-        """Whether each ray hits anything: bool (n,). Arguments as those of closest(); faster than that."""
-        rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
+        """Whether each ray hits anything: bool, with the shape of the rays. Arguments as those of closest(); faster than that."""
+        rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images, in_blocks = self._images(periodic), _in_blocks(order)
         try:
-            return self._core.occluded(*rays, images, in_blocks)
+            hidden = self._core.occluded(*rays, images, in_blocks)
         except InputError as error:
             raise _of_t_max(error) from None
+        made: Array = hidden.reshape(shape)[()]
+        return made
 
     def all_hits(
         self,
@@ -189,26 +189,48 @@ class Tree:
         leaves: Any = None,
         inside: Any = None,
         periodic: bool = False,
+        k: Optional[int] = None,
     ) -> Hits:
-        """Every sphere that each ray meets, where it enters. Arguments as those of closest(); periodic rays need t_max."""
-        rays = self._rays(origins, directions, t_min, t_max, leaves, inside)
+        """Every sphere that each ray meets, where it enters. Arguments as those of closest(); periodic rays need t_max.
+
+        k: of each ray the first k hits alone. The answer also knows positions(), normals(), exits() and derivatives().
+        """
+        rays, _ = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images = self._images(periodic)
+        most = None if k is None else _count_of(k)
+        core = self._core
         try:
-            ray, t, ids = self._core.all_hits(*rays, images)
+            ray, t, ids = core.all_hits(*rays, images)
         except InputError as error:
             raise _of_t_max(error) from None
         begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
-        return Hits(ray, t, self._positions(ids), begin)
+        if most is not None:
+            first = np.arange(len(ray)) - begin[ray] < most
+            ray, t, ids = ray[first], t[first], ids[first]
+            begin = np.concatenate([[0], np.cumsum(np.minimum(np.diff(begin), most))])
+        hits = Hits(ray, t, self._positions(ids), begin)
+        hits._query = RayQuery(core, self._in_part, rays[:2], images)
+        return hits
 
     def nearest(
-        self, points: Any, k: int = 1, *, within: Optional[float] = None, to: str = "surface"
+        self,
+        points: Any,
+        k: int = 1,
+        *,
+        within: Optional[float] = None,
+        to: str = "surface",
+        mask: Any = None,
+        exclude: Any = None,
     ) -> tuple[Array, Array]:
         """The k nearest spheres of each point: distances, float64, inf where there are fewer; and positions, int64, -1 there.
 
-        points: shape (n, 3), or (3,) for one; float64 decides. Finite, and at most 3.4e38 in size.
-        k: at least 1. Both answers have shape (n,) for k = 1, else (n, k), ordered by distance, then position.
+        points: shape (..., 3), as (n, 3), or (3,) for one; float64 decides. Finite, and at most 3.4e38 in size.
+        k: at least 1. For k = 1 both answers have the shape of the points, (n,), and are numbers for a single point; else one
+            axis more, (n, k), ordered by distance, then position.
         within: only spheres at a distance of at most this; None: any.
         to: "surface" (below 0 inside a sphere), or "centre".
+        mask: only these spheres count: an expression, a mask of shape (n,), or positions.
+        exclude: a sphere that does not count, one for each point: the point's own; -1: none. Of its images, the nearest.
 
         Other Python threads run meanwhile, and Ctrl-C ends it. Error: InputError for a point that is not finite.
 
@@ -216,65 +238,127 @@ class Tree:
         >>> distance, i = tree.nearest([[2, 0, 0], [5, 0, 0.5]])
         >>> distance.tolist(), i.tolist()
         ([1.0, -0.5], [0, 1])
+        >>> tree.nearest(tree.spheres.xyz, to="centre", exclude=[0, 1])[1].tolist()  # the neighbour of each sphere
+        [1, 0]
         """
-        if isinstance(k, bool) or not isinstance(k, (int, np.integer)) or k < 1:
-            raise bad_argument("k", f"expected a whole number of at least 1, found {found(k)}")
-        where = _points(points)
-        if 16 * where.shape[0] * int(k) > _PLENTY and 16 * where.shape[0] * int(k) > _memory():
+        wanted = _count_of(k)
+        where, shape = _points(points)
+        if 16 * where.shape[0] * wanted > _PLENTY and 16 * where.shape[0] * wanted > _memory():
             raise bad_argument("k", f"the answers for {where.shape[0]} points are larger than the memory, found {found(k)}")
         most = np.inf if within is None else float(one_each("within", within, 1)[0])
         if np.isnan(most):
             raise bad_argument("within", "expected a number, found NaN")
+        own = self._own(exclude, shape)
         try:
-            distance, ids = self._core.nearest(where, int(k), most, _to_centre(to))
+            distance, ids = self._core.nearest(where, wanted + (own is not None), most, self._mask(mask), _to_centre(to))
         except InputError:
             _check_points(where)
             raise
+        if own is not None:
+            distance, ids = _without_own(distance, ids, own)
         ids = self._positions(ids)
-        return (distance[:, 0], ids[:, 0]) if k == 1 else (distance, ids)
+        if wanted == 1:
+            return distance.reshape(shape)[()], ids.reshape(shape)[()]
+        return distance.reshape(*shape, wanted), ids.reshape(*shape, wanted)
 
-    def within(self, points: Any, limits: Any, *, to: str = "surface") -> Near:
-        """Every sphere at a distance of at most `limits` from each point: one number, or shape (n,).
+    def within(self, points: Any, limits: Any, *, to: str = "surface", mask: Any = None, exclude: Any = None) -> Near:
+        """Every sphere at a distance of at most `limits` from each point: one number, or one for each point.
 
-        points, to: as those of nearest(). To the surface, a limit of 0 gives the spheres that contain the point, and r those
-            that share a point with the ball of radius r around it.
+        points, to, mask, exclude: as those of nearest(). To the surface, a limit of 0 gives the spheres that contain the point,
+        and r those that share a point with the ball of radius r around it.
         """
-        where = _points(points)
-        if isinstance(limits, float):
-            most = np.full(where.shape[0], limits)
-        else:
-            most = one_each("limits", limits, where.shape[0]).astype(np.float64)
-        if np.isnan(most).any():
-            raise bad_argument("limits", "expected numbers, found NaN")
-        return self._within("limits", where, most, to)
+        where, shape = _points(points)
+        return self._within("limits", where, _limits(limits, shape), to, mask, self._own(exclude, shape))
 
-    def _within(self, name: str, where: Array, most: Array, to: str) -> Near:
+    def count_within(self, points: Any, limits: Any, *, to: str = "surface", mask: Any = None, exclude: Any = None) -> Array:
+        """The number of these spheres: int64, with the shape of the points. Arguments as those of within(), whose lists it does
+        not keep.
+
+        >>> tree = Tree(Spheres([[0.0, 0, 0], [5, 0, 0]], radius=1))
+        >>> tree.count_within([[0, 0, 0], [2.5, 0, 0]], 1.5).tolist()
+        [1, 2]
+        """
+        where, shape = _points(points)
+        most, own = _limits(limits, shape), self._own(exclude, shape)
+        if own is not None:
+            return self._within("limits", where, most, to, mask, own).counts.reshape(shape)[()]
         try:
-            begin, ids, distance = self._core.within(where, np.ascontiguousarray(most), _to_centre(to))
+            counts = self._core.count_within(where, most, self._mask(mask), _to_centre(to))
         except InputError as error:
-            _check_points(where)
-            # Each image of a sphere is found, and there may be too many.
-            if self.periodic and "images" in str(error):
-                raise bad_argument(name, str(error)) from None
-            raise
-        return Near(begin, self._positions(ids), distance)
+            raise self._of_points("limits", where, error) from None
+        made: Array = counts.reshape(shape)[()]
+        return made
 
-    def contains(self, points: Any) -> Near:
-        """Every sphere that contains each point, its surface included. points: as those of nearest().
+    def contains(self, points: Any, *, mask: Any = None, exclude: Any = None) -> Near:
+        """Every sphere that contains each point, its surface included. Arguments as those of nearest().
 
         >>> tree = Tree(Spheres([[0.0, 0, 0], [1, 0, 0]], radius=1))
         >>> tree.contains([[0.5, 0, 0], [2, 0, 0], [3, 0, 0]]).counts.tolist()
         [2, 1, 0]
         """
-        return self.within(points, 0.0)
+        return self.within(points, 0.0, mask=mask, exclude=exclude)
 
-    def overlaps(self, points: Any, radii: Any) -> Near:
-        """Every sphere that shares a point with the ball of radius `radii` (one number, or shape (n,)) around each point."""
-        where = _points(points)
-        sizes = one_each("radii", radii, where.shape[0])
+    def overlaps(self, points: Any, radii: Any, *, mask: Any = None, exclude: Any = None) -> Near:
+        """Every sphere that shares a point with the ball of radius `radii` (one number, or one for each point) around each point.
+
+        points, mask, exclude: as those of nearest().
+        """
+        where, shape = _points(points)
+        sizes = in_a_row("radii", numbers("radii", radii), shape)
         if sizes.size > 0 and not (np.isfinite(sizes).all() and (sizes >= 0).all()):
             raise bad_argument("radii", "expected finite numbers of at least 0")
-        return self._within("radii", where, sizes.astype(np.float64), "surface")
+        return self._within("radii", where, np.ascontiguousarray(sizes, dtype=np.float64), "surface", mask, self._own(exclude, shape))
+
+    def pairs(self, reach: float, *, to: str = "surface", mask: Any = None) -> Pairs:
+        """Every pair of spheres at a distance of at most `reach`, once: between their surfaces (0: those that touch or overlap),
+        or with to="centre" between their centres.
+
+        mask: only these spheres count: an expression, a mask of shape (n,), or positions. Where the tree is periodic, a sphere
+        and the images of others, and of itself, are pairs too.
+
+        >>> tree = Tree(Spheres([[0.0, 0, 0], [1.5, 0, 0], [9, 0, 0]], radius=1))
+        >>> pairs = tree.pairs(0)
+        >>> pairs.first.tolist(), pairs.second.tolist(), pairs.distance.tolist()
+        ([0], [1], [-0.5])
+        >>> tree.pairs(7.5, to="centre").second.tolist()
+        [1, 2]
+        """
+        most = float(one_each("reach", reach, 1)[0])
+        if np.isnan(most):
+            raise bad_argument("reach", "expected a number, found NaN")
+        try:
+            first, second, distance = self._core.pairs(most, self._mask(mask), _to_centre(to))
+        except InputError as error:
+            raise bad_argument("reach", str(error)) from None
+        return Pairs(self._positions(first), self._positions(second), distance)
+
+    def _within(self, name: str, where: Array, most: Array, to: str, mask: Any, own: Optional[Array]) -> Near:
+        try:
+            begin, ids, distance = self._core.within(where, most, self._mask(mask), _to_centre(to))
+        except InputError as error:
+            raise self._of_points(name, where, error) from None
+        if own is not None:
+            begin, ids, distance = _lists_without_own(begin, ids, distance, own)
+        return Near(begin, self._positions(ids), distance)
+
+    def _of_points(self, name: str, where: Array, error: InputError) -> Error:
+        _check_points(where)
+        # Each image of a sphere is found, and there may be too many.
+        return bad_argument(name, str(error)) if self.periodic and "images" in str(error) else error
+
+    def _mask(self, mask: Any) -> Optional[Array]:
+        """A byte for each sphere of the tree; None: all count."""
+        if mask is None:
+            return None
+        counting = chosen("mask", mask, self._spheres, self._sees_images)
+        return np.ascontiguousarray(counting if self._ids is None else counting[self._ids]).view(np.uint8)
+
+    def _own(self, exclude: Any, shape: Shape) -> Optional[Array]:
+        """The sphere of the tree that does not count for each point; None: all count."""
+        if exclude is None:
+            return None
+        given = whole_numbers("exclude", exclude, None, -1, max(len(self._spheres) - 1, 0))
+        return self._in_part(in_a_row("exclude", given, shape).astype(np.int64))
 
     def _images(self, periodic: Any) -> bool:
         if boolean("periodic", periodic) and not self.periodic:
@@ -300,30 +384,32 @@ class Tree:
 
     def _rays(
         self, origins: Any, directions: Any, t_min: Any, t_max: Any, leaves: Any, inside: Any
-    ) -> tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]]:
+    ) -> tuple[tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]], Shape]:
+        """The rays one after the other, and their shape."""
         origin = vectors("origins", origins)
         direction = vectors("directions", directions)
-        if origin.ndim == direction.ndim == 2 and origin.shape != direction.shape:
+        try:
+            shape = np.broadcast_shapes(origin.shape[:-1], direction.shape[:-1])
+        except ValueError:
             raise bad_argument(
                 "directions", f"expected as many as origins, found shapes {origin.shape} and {direction.shape}"
-            )
-        count = (origin if origin.ndim == 2 else direction).shape[0] if origin.ndim + direction.ndim > 2 else 1
+            ) from None
         left = None
         if leaves is not None:
-            most = max(len(self._spheres) - 1, 0)
-            given = whole_numbers("leaves", leaves, count, -2, most)
-            left = np.ascontiguousarray(self._in_part(given.astype(np.int64)), dtype=np.int64)
+            given = whole_numbers("leaves", leaves, None, -2, max(len(self._spheres) - 1, 0))
+            left = np.ascontiguousarray(self._in_part(in_a_row("leaves", given, shape).astype(np.int64)), dtype=np.int64)
         into = None
         if inside is not None:
-            into = np.ascontiguousarray(one_each("inside", inside, count) != 0).view(np.uint8)
-        return (
-            _spread(origin, count),
-            _spread(direction, count),
-            None if t_min is None else one_each("t_min", t_min, count),
-            None if t_max is None else one_each("t_max", t_max, count),
+            into = np.ascontiguousarray(in_a_row("inside", numbers("inside", inside), shape) != 0).view(np.uint8)
+        rays = (
+            np.broadcast_to(origin, (*shape, 3)).reshape(-1, 3),
+            np.broadcast_to(direction, (*shape, 3)).reshape(-1, 3),
+            None if t_min is None else in_a_row("t_min", numbers("t_min", t_min), shape),
+            None if t_max is None else in_a_row("t_max", numbers("t_max", t_max), shape),
             left,
             into,
         )
+        return rays, shape
 
 
 def _of_t_max(error: InputError) -> Error:
@@ -336,14 +422,44 @@ def _memory() -> int:
     return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
 
 
-def _points(points: Any) -> Array:
-    """float64 (n, 3), row by row. The compiled part refuses numbers that are none; _check_points() then says which."""
+def _count_of(k: Any) -> int:
+    if isinstance(k, bool) or not isinstance(k, (int, np.integer)) or k < 1:
+        raise bad_argument("k", f"expected a whole number of at least 1, found {found(k)}")
+    return int(k)
+
+
+def _limits(limits: Any, shape: Shape) -> Array:
+    """float64, for each point."""
+    most = np.ascontiguousarray(in_a_row("limits", numbers("limits", limits), shape), dtype=np.float64)
+    if np.isnan(most).any():
+        raise bad_argument("limits", "expected numbers, found NaN")
+    return most
+
+
+def _without_own(distance: Array, ids: Array, own: Array) -> tuple[Array, Array]:
+    """Of (n, k + 1) answers in order of distance the first k without each point's own sphere, which counts once."""
+    is_own = ids == np.where(own < 0, -2, own)[:, None]
+    left_out = np.where(is_own.any(axis=1), is_own.argmax(axis=1), ids.shape[1] - 1)
+    stays = np.arange(ids.shape[1]) != left_out[:, None]
+    shape = (len(ids), ids.shape[1] - 1)
+    return distance[stays].reshape(shape), ids[stays].reshape(shape)
+
+
+def _lists_without_own(begin: Array, ids: Array, distance: Array, own: Array) -> tuple[Array, Array, Array]:
+    """The same of lists in order of positions, then distance."""
+    point = np.repeat(np.arange(len(own)), np.diff(begin))
+    is_own = ids == own[point]
+    is_own[1:] &= ~((ids[1:] == ids[:-1]) & (point[1:] == point[:-1]))  # of the images, the nearest
+    stays = ~is_own
+    counts = np.diff(begin) - np.bincount(point[is_own], minlength=len(own))
+    return np.concatenate([[0], np.cumsum(counts)]), ids[stays], distance[stays]
+
+
+def _points(points: Any) -> tuple[Array, Shape]:
+    """float64 (n, 3), row by row, and the points' shape. The compiled part refuses numbers that are none; _check_points() then
+    says which."""
     array = vectors("points", points)
-    if array.ndim == 1:
-        array = array.reshape(1, 3)
-    if array.dtype == np.float64 and array.flags.c_contiguous:
-        return array
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return np.ascontiguousarray(array.reshape(-1, 3), dtype=np.float64), array.shape[:-1]
 
 
 def _check_points(points: Array) -> None:
@@ -352,13 +468,6 @@ def _check_points(points: Array) -> None:
         first = int(bad.argmax())
         message = f"points: point {first} must be finite and at most 3.4e38 in size, found {points[first].tolist()}"
         raise InputError(message, argument="points") from None
-
-
-def _spread(array: Array, count: int) -> Array:
-    """Shape (count, 3), of vectors or of one that all share."""
-    if array.ndim == 2:
-        return array
-    return array.reshape(1, 3) if count == 1 else np.broadcast_to(array, (count, 3))
 
 
 def _to_centre(to: str) -> bool:

@@ -67,13 +67,24 @@ void check_size(const std::string& name, const py::array& array, py::ssize_t cou
   if (!fits || array.shape(0) != count) fail_size(name);
 }
 
+using NumberColumns = std::vector<std::pair<std::string, Array<double>>>;
+using TextColumns = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+// Rounds the numbers of arrays once; a doubt about that becomes a warning.
+void take_places(SphereFile& file, const py::array& xyz, const py::array& radius) {
+  const NumbersView x = column_of(xyz, 0), y = column_of(xyz, 1), z = column_of(xyz, 2), r = view_of(radius);
+  const py::gil_scoped_release unlocked;
+  file.spheres = value_of(SphereSet::from_world(x, y, z, r, SphereSet::Origin::fitting));
+  std::string warning = rounding_warning(rounding_loss(file.spheres, x, y, z, r), file.spheres.size());
+  if (!warning.empty()) file.warnings.push_back(std::move(warning));
+}
+
 // Arrays have an entry for each sphere, and types as bihive/_spheres.py gives them.
 SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
                                   const std::optional<Array<std::uint8_t>>& element,
                                   const std::optional<Array<std::int32_t>>& type,
                                   const std::optional<Array<float>>& colour, const std::optional<Array<float>>& opacity,
-                                  const std::vector<std::pair<std::string, Array<double>>>& numbers,
-                                  const std::vector<std::pair<std::string, std::vector<std::string>>>& texts,
+                                  const NumberColumns& numbers, const TextColumns& texts,
                                   const std::optional<Array<double>>& cell, const std::array<bool, 3>& periodic,
                                   const std::string& format, const std::string& name, std::int64_t frames,
                                   std::optional<double> time_ps, std::optional<std::int64_t> step,
@@ -89,14 +100,7 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
     if (static_cast<py::ssize_t>(values.size()) != count) fail_size(column);
   if (cell) check_size("cell", *cell, 4, 3);
   auto made = std::make_shared<Spheres>();
-  const NumbersView x = column_of(xyz, 0), y = column_of(xyz, 1), z = column_of(xyz, 2), r = view_of(radius);
-  {
-    const py::gil_scoped_release unlocked;
-    made->file.spheres = value_of(SphereSet::from_world(x, y, z, r, SphereSet::Origin::fitting));
-    const SphereSet& set = made->file.spheres;
-    std::string warning = rounding_warning(rounding_loss(set, x, y, z, r), set.size());
-    if (!warning.empty()) made->file.warnings.push_back(std::move(warning));
-  }
+  take_places(made->file, xyz, radius);
   SphereAttributes& attributes = made->file.spheres.attributes();
   if (element) attributes.element = vector_from<std::uint8_t>(*element);
   if (type) attributes.type = vector_from<std::int32_t>(*type);
@@ -119,6 +123,21 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
   return made;
 }
 
+// What is known of the whole besides its spheres and their attributes.
+std::shared_ptr<Spheres> facts_of(const Spheres& whole) {
+  auto made = std::make_shared<Spheres>();
+  SphereFile& file = made->file;
+  file.format = whole.file.format;
+  file.frames = whole.file.frames;
+  file.rules = whole.file.rules;
+  file.assemblies = whole.file.assemblies;
+  file.time_ps = whole.file.time_ps;
+  file.step = whole.file.step;
+  file.recentred_by = whole.file.recentred_by;
+  made->name = whole.name;
+  return made;
+}
+
 // The spheres of these ids, which are in range, with all that is known of the whole. They are rounded again, as those
 // of arrays are: relative to an origin of their own.
 SharedSpheres part_of(const Spheres& whole, const Array<std::int64_t>& positions) {
@@ -132,20 +151,44 @@ SharedSpheres part_of(const Spheres& whole, const Array<std::int64_t>& positions
     for (std::size_t axis = 0; axis < 3; ++axis) columns[axis].push_back(centre[static_cast<int>(axis)]);
     columns[3].push_back(set.radius(id));
   }
-  auto made = std::make_shared<Spheres>();
-  SphereFile& file = made->file;
   const auto view = [&](std::size_t column) { return NumbersView::of(columns[column]); };
-  file.spheres = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
-  file.spheres.attributes() = set.attributes().part(ids);
-  file.spheres.cell() = set.cell();
-  file.format = whole.file.format;
-  file.frames = whole.file.frames;
-  file.rules = whole.file.rules;
-  file.assemblies = whole.file.assemblies;
-  file.time_ps = whole.file.time_ps;
-  file.step = whole.file.step;
-  file.recentred_by = whole.file.recentred_by;
-  made->name = whole.name;
+  const std::shared_ptr<Spheres> made = facts_of(whole);
+  made->file.spheres = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
+  made->file.spheres.attributes() = set.attributes().part(ids);
+  made->file.spheres.cell() = set.cell();
+  return made;
+}
+
+// The same spheres in other places. bihive/_spheres.py has checked the shapes.
+SharedSpheres moved(const Spheres& whole, const py::array& xyz, const py::array& radius) {
+  const std::shared_ptr<Spheres> made = facts_of(whole);
+  take_places(made->file, xyz, radius);
+  made->file.spheres.attributes() = whole.file.spheres.attributes();
+  made->file.spheres.cell() = whole.file.spheres.cell();
+  return made;
+}
+
+// The same spheres with these columns instead of those of the same names and of those in `without`.
+SharedSpheres with_columns(const Spheres& whole, const NumberColumns& numbers, const TextColumns& texts,
+                           const std::vector<std::string>& without) {
+  auto made = std::make_shared<Spheres>(whole);
+  SphereAttributes& attributes = made->file.spheres.attributes();
+  const auto remove = [&](const std::string& name) {
+    const auto has_name = [&](const auto& column) { return column.name == name; };
+    auto& known_numbers = attributes.numbers;
+    auto& known_texts = attributes.texts;
+    known_numbers.erase(std::remove_if(known_numbers.begin(), known_numbers.end(), has_name), known_numbers.end());
+    known_texts.erase(std::remove_if(known_texts.begin(), known_texts.end(), has_name), known_texts.end());
+  };
+  for (const std::string& name : without) remove(name);
+  for (const auto& [name, values] : numbers) {
+    remove(name);
+    attributes.numbers.push_back({name, vector_from<double>(values)});
+  }
+  for (const auto& [name, values] : texts) {
+    remove(name);
+    attributes.texts.push_back(texts_from(name, values));
+  }
   return made;
 }
 
@@ -430,6 +473,8 @@ void bind_spheres(py::module_& module) {
       .def_property_readonly("attributes", attribute_names)
       .def("column", column_or_none)
       .def("part", part_of)
+      .def("moved", moved)
+      .def("with_columns", with_columns)
       .def_property_readonly("cell", cell_or_none)
       .def_property_readonly("periodic", periodic)
       .def_property_readonly(

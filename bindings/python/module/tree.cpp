@@ -18,6 +18,7 @@
 
 #include "arrays.h"
 #include "bihive/base/parallel.h"
+#include "bihive/geometry/hit_surface.h"
 #include "bihive/render/memory.h"
 #include "errors.h"
 #include "waiting.h"
@@ -250,6 +251,91 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
   return py::make_tuple(ray, t, id);
 }
 
+// Arrays of the surface at each hit: position, normal, t_exit, and with `with_derivatives` those of HitDerivatives.
+// `ray`: of each hit; null: hit i is that of ray i. NaN where nothing was hit. Fails where a hit is not that of its
+// ray: the arrays have changed since the query.
+py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array& direction,
+                   const std::optional<py::array_t<std::int64_t, py::array::c_style>>& ray,
+                   const py::array_t<double, py::array::c_style>& t,
+                   const py::array_t<std::int64_t, py::array::c_style>& id, bool see_images, bool with_derivatives) {
+  const SphereSet& set = tree.spheres->file.spheres;
+  const RayArrays rays = rays_from(origin, direction, {}, {}, {}, {});
+  const std::int64_t hits = t.size(), most_spheres = set.total_size();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto rows = [&](std::vector<py::ssize_t> shape) {
+    shape.insert(shape.begin(), static_cast<py::ssize_t>(hits));
+    py::array_t<double> made(shape);
+    std::fill_n(made.mutable_data(), made.size(), nan);
+    return made;
+  };
+  py::array_t<double> position = rows({3}), normal = rows({3}), exit = rows({});
+  py::array_t<double> t_by_centre, t_by_radius, normal_by_centre, normal_by_radius;
+  if (with_derivatives) {
+    t_by_centre = rows({3});
+    t_by_radius = rows({});
+    normal_by_centre = rows({3, 3});
+    normal_by_radius = rows({3});
+  }
+  const auto put = [](Vec3d vector, double* to) {
+    for (int axis = 0; axis < 3; ++axis) to[axis] = vector[axis];
+  };
+  double *to_position = position.mutable_data(), *to_normal = normal.mutable_data(), *to_exit = exit.mutable_data();
+  double *to_t_centre = nullptr, *to_t_radius = nullptr, *to_n_centre = nullptr, *to_n_radius = nullptr;
+  if (with_derivatives) {
+    to_t_centre = t_by_centre.mutable_data(), to_t_radius = t_by_radius.mutable_data();
+    to_n_centre = normal_by_centre.mutable_data(), to_n_radius = normal_by_radius.mutable_data();
+  }
+  std::atomic<bool> have_changed{false};
+  const double* const all_t = t.data();
+  const std::int64_t *const all_ids = id.data(), *const all_rays = ray ? ray->data() : nullptr;
+  {
+    const py::gil_scoped_release unlocked;
+    const std::int64_t chunks = (hits + kFewestRays - 1) / kFewestRays;
+    parallel_for(tree.threads, chunks, [&](std::int64_t chunk) {
+      for (std::int64_t i = chunk * kFewestRays; i < std::min(hits, (chunk + 1) * kFewestRays); ++i) {
+        if (all_ids[i] < 0) continue;
+        const std::int64_t of = all_rays != nullptr ? all_rays[i] : i;
+        if (all_ids[i] >= most_spheres || of < 0 || of >= rays.count) {
+          have_changed = true;
+          return;
+        }
+        // The ray as the query rounded it.
+        const auto at = static_cast<std::size_t>(of);
+        Ray local;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const int a = static_cast<int>(axis);
+          local.origin[a] = static_cast<float>(rays.origin[axis].at(at) - set.origin()[a]);
+          local.direction[a] = static_cast<float>(rays.direction[axis].at(at));
+        }
+        const ScaledRay scaled(local, set.scale());
+        std::optional<Vec3d> centre = set.stored_centre(all_ids[i]);
+        if (see_images) centre = tree.images->image_of_hit(scaled, all_t[i], all_ids[i]);
+        const double radius = set.stored_radius(all_ids[i]);
+        const std::optional<HitSurface> found = centre ? hit_surface(scaled, all_t[i], *centre, radius) : std::nullopt;
+        if (!found) {
+          have_changed = true;
+          return;
+        }
+        put(set.in_world(found->position * set.inverse_scale()), to_position + 3 * i);
+        put(found->normal, to_normal + 3 * i);
+        to_exit[i] = found->t_exit;
+        if (!with_derivatives) continue;
+        const HitDerivatives by =
+            hit_derivatives(to_double(local.direction), found->normal, radius * set.inverse_scale());
+        put(by.t_by_centre, to_t_centre + 3 * i);
+        to_t_radius[i] = by.t_by_radius;
+        for (int row = 0; row < 3; ++row) put(by.normal_by_centre[row], to_n_centre + 9 * i + 3 * row);
+        put(by.normal_by_radius, to_n_radius + 3 * i);
+      }
+    });
+  }
+  if (have_changed)
+    fail_usage("the rays are not those of the query any more: their arrays have changed",
+               "ask for positions and normals first, or copy the arrays");
+  if (!with_derivatives) return py::make_tuple(position, normal, exit);
+  return py::make_tuple(t_by_centre, t_by_radius, normal_by_centre, normal_by_radius);
+}
+
 // `part`: ids of a subset of the spheres; their positions in it are the answers' ids. `words`: options of `bihive
 // trace` about tree, engine and threads. `periodic`: queries see the images along the set's cell.
 std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
@@ -292,7 +378,8 @@ void bind_trees(py::module_& module) {
       .def_property_readonly("periodic", [](const RayTree& tree) { return tree.images.has_value(); })
       .def("closest", closest)
       .def("occluded", occluded)
-      .def("all_hits", every_hit);
+      .def("all_hits", every_hit)
+      .def("surfaces", surfaces);
   bind_points(tree_class);
   module.def(
       "build_tree",

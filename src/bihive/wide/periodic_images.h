@@ -58,6 +58,9 @@ class PeriodicImages {
   static Error ray_without_end(std::int64_t ray);
   /// Error: the spheres lie so far apart, or are so large, that more than 4096 images overlap.
   Status check_rays() const;
+  /// The centre, in stored units, of the image of sphere `id` that gave a hit at `t`. Nothing: none gives it, so the
+  /// ray or the sphere is another one.
+  std::optional<Vec3d> image_of_hit(const ScaledRay& ray, double t, std::int64_t id) const;
 
   /// ---- Points, for wide/schedule ----
 
@@ -82,6 +85,8 @@ class PeriodicImages {
   /// rounded.
   std::int64_t nearest_of(const Place& place, double within, std::int64_t wanted, wide::NearSphere* nearest) const;
 
+  template <class LookAt>
+  void each_image_near(Vec3d point, std::int64_t id, const LookAt& look_at) const;
   void set_left_image(const Ray& ray, ScaledRay& scaled) const;
   Interval near_spheres(const ScaledRay& ray) const;
   Interval in_image(const ScaledRay& ray, Vec3d share, Vec3d speed, const ImageCounts& counts) const;

@@ -79,6 +79,10 @@ Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points
 Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, double limit,
                                    const PointOptions& options = {});
 
+/// The lengths of these lists alone. Error: as spheres_within(), but no memory is needed for the lists.
+Result<std::vector<std::int64_t>> count_within(const WideTree& tree, const PointSpan& points, const double* limits,
+                                               const PointOptions& options = {});
+
 /// Every sphere that contains the point, its surface included. `options.to` does not matter.
 Result<SphereLists> spheres_containing(const WideTree& tree, const PointSpan& points, PointOptions options = {});
 
@@ -86,5 +90,20 @@ Result<SphereLists> spheres_containing(const WideTree& tree, const PointSpan& po
 /// Error: also a radius that is negative or not finite.
 Result<SphereLists> spheres_overlapping(const WideTree& tree, const PointSpan& points, const double* radii,
                                         PointOptions options = {});
+
+/// Pairs of spheres, by ascending first, then second; images by ascending distance.
+struct SpherePairs {
+  std::vector<std::int64_t> first, second;  ///< first < second; equal for a sphere and an image of itself
+  std::vector<double> distance;
+};
+
+/// Every pair of spheres at a distance of at most `reach`, once: between their centres, or with DistanceTo::surface
+/// between their surfaces (below 0 where they overlap; 0 gives the contacts). `spheres`: the set of the tree. With
+/// PointOptions::images a sphere and the images of another, or of itself, are pairs too. Two distances to the centre
+/// from either end are equal, as image_distance() says; to the surface, that from the pair's first sphere is returned,
+/// less its radius. Error: `reach` NaN, or as spheres_within(). The mask leaves out pairs with a sphere that it passes
+/// over.
+Result<SpherePairs> sphere_pairs(const WideTree& tree, const SphereSet& spheres, double reach,
+                                 const PointOptions& options = {});
 
 }  // namespace bihive

@@ -79,18 +79,25 @@ struct ImageTest {
 }  // namespace
 
 // Finds the image that the ray exits: the one of `leaves` whose surface is nearest to the ray's origin.
-void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
-  if (ray.leaves < 0 || ray.leaves >= static_cast<std::int64_t>(x_.size())) return;
-  const auto i = static_cast<std::size_t>(ray.leaves);
+// Calls look_at(centre, radius) for the images of sphere `id` whose surfaces may be near the point, until it returns
+// true; stored units.
+template <class LookAt>
+void PeriodicImages::each_image_near(Vec3d point, std::int64_t id, const LookAt& look_at) const {
+  const auto i = static_cast<std::size_t>(id);
   const Vec3d own{double(x_[i]), double(y_[i]), double(z_[i])};
   const double radius = double(r_[i]);
-  const double largest = std::max(largest_coordinate(scaled.origin), largest_);
   const Vec3d share = lattice_.shares(own);
   // From everywhere some image's centre is this near, and its surface at most as far.
   const double reach = 2 * (radius + lattice_.covering());
+  const double largest = std::max(largest_coordinate(point), largest_);
+  any_image(lattice_.images_within(reach, point, share, share, largest),
+            [&](const ImageCounts& counts) { return look_at(own + lattice_.shift(counts), radius); });
+}
+
+void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
+  if (ray.leaves < 0 || ray.leaves >= static_cast<std::int64_t>(x_.size())) return;
   double nearest = kInfinity;
-  any_image(lattice_.images_within(reach, scaled.origin, share, share, largest), [&](const ImageCounts& counts) {
-    const Vec3d centre = own + lattice_.shift(counts);
+  each_image_near(scaled.origin, ray.leaves, [&](Vec3d centre, double radius) {
     const double distance = std::abs(length(scaled.origin - centre) - radius);
     if (distance < nearest) {
       nearest = distance;
@@ -99,6 +106,16 @@ void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
     }
     return false;
   });
+}
+
+std::optional<Vec3d> PeriodicImages::image_of_hit(const ScaledRay& ray, double t, std::int64_t id) const {
+  std::optional<Vec3d> found;
+  each_image_near(ray.origin + t * ray.direction, id, [&](Vec3d centre, double radius) {
+    const SphereRoots roots = sphere_roots(ray, centre, radius);
+    if (t == roots.t_near || t == roots.t_far) found = centre;
+    return found.has_value();
+  });
+  return found;
 }
 
 // Clips the ray, across the lattice's directions, to the reach of the spheres.

@@ -81,18 +81,34 @@ bool for_each_point(const WideTree& tree, const PointSpan& points, int threads, 
 
 // limit(i) is that of point i, in world units.
 template <class Limit>
-Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, const Limit& limit,
-                               const PointOptions& options) {
-  if (Status status = check_points(points); !status) return status.error();
+Status check_limits(const WideTree& tree, const PointSpan& points, const Limit& limit, const PointOptions& options) {
+  if (Status status = check_points(points); !status) return status;
   for (std::int64_t i = 0; i < points.count; ++i)
     if (std::isnan(limit(i))) return bad_point(i, "the limit must be a number", limit(i));
-  if (options.images != nullptr) {
-    double largest = 0;
-    for (std::int64_t i = 0; i < points.count; ++i) largest = std::max(largest, limit(i));
-    if (!(options.images->images_within(largest * tree.scale) <= kMostImages))
-      return Error{"the limit of the distance reaches more than a million images of the periodic cell", "", 0, 0,
-                   "ask for a smaller distance, or without images"};
-  }
+  if (options.images == nullptr) return Done{};
+  double largest = 0;
+  for (std::int64_t i = 0; i < points.count; ++i) largest = std::max(largest, limit(i));
+  if (options.images->images_within(largest * tree.scale) <= kMostImages) return Done{};
+  return Error{"the limit of the distance reaches more than a million images of the periodic cell", "", 0, 0,
+               "ask for a smaller distance, or without images"};
+}
+
+// Appends what is near point i, in stored units and any order.
+template <class Limit>
+void find_near(const WideTree& tree, const PointSpan& points, const Limit& limit, const PointOptions& options,
+               std::int64_t i, std::vector<NearSphere>& found) {
+  const PointQuestion question{tree.stored(points.at(i)), limit(i) * tree.scale, options.to, options.mask};
+  if (options.images != nullptr)
+    options.images->find_within(tree, question, found);
+  else
+    find_within(tree, question, found);
+}
+
+// keep(i, begin, end): moves those of point i's spheres that count to the front, in any order, and returns their end.
+template <class Limit, class Keep>
+Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, const Limit& limit,
+                               const PointOptions& options, const Keep& keep) {
+  if (Status status = check_limits(tree, points, limit, options); !status) return status.error();
   try {
     SphereLists lists;
     lists.begin.assign(static_cast<std::size_t>(points.count) + 1, 0);
@@ -108,15 +124,12 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
           const std::size_t known = here.size();
-          const PointQuestion question{tree.stored(points.at(i)), limit(i) * tree.scale, options.to, options.mask};
-          if (options.images != nullptr)
-            options.images->find_within(tree, question, here);
-          else
-            find_within(tree, question, here);
-          std::sort(here.begin() + static_cast<std::ptrdiff_t>(known), here.end(),
-                    [](const NearSphere& a, const NearSphere& b) {
-                      return a.id != b.id ? a.id < b.id : a.distance < b.distance;
-                    });
+          find_near(tree, points, limit, options, i, here);
+          const auto first = here.begin() + static_cast<std::ptrdiff_t>(known);
+          here.erase(keep(i, first, here.end()), here.end());
+          std::sort(first, here.end(), [](const NearSphere& a, const NearSphere& b) {
+            return a.id != b.id ? a.id < b.id : a.distance < b.distance;
+          });
           count_of(i) = static_cast<std::int64_t>(here.size() - known);
         },
         [&](std::int64_t first, const std::vector<std::uint32_t>& order) {
@@ -146,6 +159,9 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
     return no_memory_for_points(points.count);
   }
 }
+
+// All of them count.
+constexpr auto kKeepAll = [](std::int64_t, auto, auto end) { return end; };
 
 }  // namespace
 }  // namespace wide
@@ -193,13 +209,36 @@ Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& po
 Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, const double* limits,
                                    const PointOptions& options) {
   return wide::find_lists(
-      tree, points, [limits](std::int64_t i) { return limits[i]; }, options);
+      tree, points, [limits](std::int64_t i) { return limits[i]; }, options, wide::kKeepAll);
 }
 
 Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, double limit,
                                    const PointOptions& options) {
   return wide::find_lists(
-      tree, points, [limit](std::int64_t) { return limit; }, options);
+      tree, points, [limit](std::int64_t) { return limit; }, options, wide::kKeepAll);
+}
+
+Result<std::vector<std::int64_t>> count_within(const WideTree& tree, const PointSpan& points, const double* limits,
+                                               const PointOptions& options) {
+  const auto limit = [limits](std::int64_t i) { return limits[i]; };
+  if (Status status = wide::check_limits(tree, points, limit, options); !status) return status.error();
+  try {
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(points.count));
+    std::vector<std::vector<wide::NearSphere>> rooms;
+    const bool done = wide::for_each_point(
+        tree, points, options.threads, [&](std::int64_t chunks) { rooms.resize(static_cast<std::size_t>(chunks)); },
+        [&](std::int64_t chunk, std::int64_t i) {
+          std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
+          room.clear();
+          wide::find_near(tree, points, limit, options, i, room);
+          counts[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(room.size());
+        },
+        [](std::int64_t, const std::vector<std::uint32_t>&) {});
+    if (!done) return wide::no_memory_for_points(points.count);
+    return counts;
+  } catch (const std::bad_alloc&) {
+    return wide::no_memory_for_points(points.count);
+  }
 }
 
 Result<SphereLists> spheres_containing(const WideTree& tree, const PointSpan& points, PointOptions options) {
@@ -214,6 +253,56 @@ Result<SphereLists> spheres_overlapping(const WideTree& tree, const PointSpan& p
     if (!(radii[i] >= 0 && std::isfinite(radii[i])))
       return wide::bad_point(i, "the radius must be finite and not negative", radii[i]);
   return spheres_within(tree, points, radii, options);
+}
+
+Result<SpherePairs> sphere_pairs(const WideTree& tree, const SphereSet& spheres, double reach,
+                                 const PointOptions& options) {
+  if (std::isnan(reach)) return Error{"the limit of the distance must be a number but is nan", "", 0, 0, ""};
+  const auto count = spheres.size();
+  const bool to_surface = options.to == DistanceTo::surface;
+  try {
+    // Ask about each centre. A sphere that the mask passes over asks about nothing.
+    std::vector<double> centres(3 * static_cast<std::size_t>(count));
+    for (std::int64_t i = 0; i < count; ++i) {
+      const Vec3d at = spheres.centre(i);
+      for (int axis = 0; axis < 3; ++axis) centres[static_cast<std::size_t>(3 * i + axis)] = at[axis];
+    }
+    const auto is_passed_over = [&](std::int64_t i) { return options.mask != nullptr && options.mask[i] == 0; };
+    const auto limit = [&](std::int64_t i) {
+      if (is_passed_over(i)) return -wide::kInfiniteDistance;
+      return to_surface ? reach + spheres.radius(i) : reach;
+    };
+    // Each pair is found from both ends; the smaller id keeps it. An image of the sphere itself is found as often as
+    // the opposite image, next to it in the order of distances, and the sphere itself at no distance.
+    const auto keep = [&](std::int64_t i, auto begin, auto end) {
+      end = std::remove_if(begin, end, [i](const wide::NearSphere& near) { return near.id < i; });
+      const auto own = std::partition(begin, end, [i](const wide::NearSphere& near) { return near.id > i; });
+      std::sort(own, end);
+      auto to = own;
+      for (auto from = own; from < end; ++from)
+        if ((from - own) % 2 == 1) *to++ = *from;
+      return to;
+    };
+    Result<SphereLists> lists = wide::find_lists(tree, PointSpan::rows(centres.data(), count), limit, options, keep);
+    if (!lists) return lists.error();
+
+    // Store the first of each pair.
+    SpherePairs pairs;
+    pairs.second = std::move(lists->sphere_id);
+    pairs.distance = std::move(lists->distance);
+    pairs.first.resize(pairs.second.size());
+    for (std::int64_t i = 0; i < count; ++i) {
+      const auto from = static_cast<std::size_t>(lists->begin[static_cast<std::size_t>(i)]);
+      const auto to = static_cast<std::size_t>(lists->begin[static_cast<std::size_t>(i) + 1]);
+      for (std::size_t k = from; k < to; ++k) {
+        pairs.first[k] = i;
+        if (to_surface) pairs.distance[k] -= spheres.radius(i);
+      }
+    }
+    return pairs;
+  } catch (const std::bad_alloc&) {
+    return wide::no_memory_for_points(count);
+  }
 }
 
 }  // namespace bihive
