@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bihive/geometry/ray.h"
+#include "bihive/geometry/sphere_distance.h"
 #include "bihive/math/rng.h"
 #include "bihive/render/query/brute_force_points.h"
 #include "bihive/simd/target.h"
@@ -138,6 +139,30 @@ void check_lists(const std::string& name, const SphereSet& spheres, const Points
   }
 }
 
+// Every pair by testing all, bit for bit.
+void check_pairs(const std::string& name, const SphereSet& spheres, const WideTree& tree, double reach,
+                 const PointOptions& options) {
+  const auto answer = sphere_pairs(tree, spheres, reach, options);
+  ASSERT_TRUE(answer.ok()) << answer.error().to_string();
+  const bool to_surface = options.to == DistanceTo::surface;
+  std::size_t at = 0;
+  for (std::int64_t i = 0; i < spheres.size(); ++i) {
+    const double radius = to_surface ? spheres.stored_radius(i) : 0;
+    const double limit = reach * spheres.scale() + radius;
+    for (std::int64_t j = i + 1; j < spheres.size(); ++j) {
+      if (options.mask != nullptr && (options.mask[i] == 0 || options.mask[j] == 0)) continue;
+      const double distance =
+          sphere_distance(spheres.stored_centre(i), spheres.stored_centre(j), spheres.stored_radius(j), options.to);
+      if (!(distance <= limit)) continue;
+      ASSERT_LT(at, answer->first.size()) << name << ": " << i << " and " << j;
+      ASSERT_EQ(answer->first[at], i) << name << ", reach " << reach;
+      ASSERT_EQ(answer->second[at], j) << name << ", reach " << reach;
+      ASSERT_EQ(answer->distance[at++], (distance - radius) * spheres.inverse_scale()) << name;
+    }
+  }
+  ASSERT_EQ(answer->first.size(), at) << name;
+}
+
 // Limits from 0 to the size of the set, below 0 too.
 std::vector<double> limits_for(const SphereSet& spheres, const Points& points, std::uint64_t seed) {
   SplitMix64 rng(seed);
@@ -172,6 +197,10 @@ void check_all(const std::string& name, const SphereSet& spheres, const WideTree
           check_nearest(form, spheres, tree, points, 3, a_radius, options);
           check_lists(form, spheres, points, limits, options,
                       spheres_within(tree, points.span(), limits.data(), options));
+          // One reach each: of contacts, of a radius, of overlaps, of everything.
+          if (threads == 2 && !spheres.has_images())
+            check_pairs(form, spheres, tree, std::vector<double>{0, a_radius, -0.5 * a_radius, kInf}[seed % 4],
+                        options);
           if (testing::Test::HasFatalFailure()) return;
         }
   }

@@ -99,10 +99,10 @@ struct SpherePairs {
 
 /// Every pair of spheres at a distance of at most `reach`, once: between their centres, or with DistanceTo::surface
 /// between their surfaces (below 0 where they overlap; 0 gives the contacts). `spheres`: the set of the tree. With
-/// PointOptions::images a sphere and the images of another, or of itself, are pairs too. Two distances to the centre
-/// from either end are equal, as image_distance() says; to the surface, that from the pair's first sphere is returned,
-/// less its radius. Error: `reach` NaN, or as spheres_within(). The mask leaves out pairs with a sphere that it passes
-/// over.
+/// PointOptions::images a sphere and the images of another, or of itself, are pairs too. The distance of a pair is
+/// sphere_distance() or image_distance() from the first one's stored centre, less its radius if it is to the surface,
+/// where the limit for the sphere is `reach` plus that radius. Error: `reach` NaN, or as spheres_within(). The mask
+/// leaves out pairs with a sphere that it passes over.
 Result<SpherePairs> sphere_pairs(const WideTree& tree, const SphereSet& spheres, double reach,
                                  const PointOptions& options = {});
 

@@ -11,6 +11,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/geometry/ray.h"
+#include "bihive/wide/schedule/check_reach.h"
 #include "bihive/wide/schedule/point_order.h"
 #include "bihive/wide/schedule/tuning.h"
 #include "bihive/wide/trace/points.h"
@@ -88,26 +89,27 @@ Status check_limits(const WideTree& tree, const PointSpan& points, const Limit& 
   if (options.images == nullptr) return Done{};
   double largest = 0;
   for (std::int64_t i = 0; i < points.count; ++i) largest = std::max(largest, limit(i));
-  if (options.images->images_within(largest * tree.scale) <= kMostImages) return Done{};
-  return Error{"the limit of the distance reaches more than a million images of the periodic cell", "", 0, 0,
-               "ask for a smaller distance, or without images"};
+  return check_reach(*options.images, largest * tree.scale);
 }
 
-// Appends what is near point i, in stored units and any order.
-template <class Limit>
-void find_near(const WideTree& tree, const PointSpan& points, const Limit& limit, const PointOptions& options,
-               std::int64_t i, std::vector<NearSphere>& found) {
-  const PointQuestion question{tree.stored(points.at(i)), limit(i) * tree.scale, options.to, options.mask};
+bool is_before_by_id(const NearSphere& a, const NearSphere& b) {
+  return a.id != b.id ? a.id < b.id : a.distance < b.distance;
+}
+
+// Appends what is near a point, all in stored units, in any order.
+void find_near(const WideTree& tree, Vec3d point, double limit, const PointOptions& options,
+               std::vector<NearSphere>& found) {
+  const PointQuestion question{point, limit, options.to, options.mask};
   if (options.images != nullptr)
     options.images->find_within(tree, question, found);
   else
     find_within(tree, question, found);
 }
 
-// keep(i, begin, end): moves those of point i's spheres that count to the front, in any order, and returns their end.
-template <class Limit, class Keep>
+// limit(i) is that of point i, in world units.
+template <class Limit>
 Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, const Limit& limit,
-                               const PointOptions& options, const Keep& keep) {
+                               const PointOptions& options) {
   if (Status status = check_limits(tree, points, limit, options); !status) return status.error();
   try {
     SphereLists lists;
@@ -124,12 +126,8 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
           const std::size_t known = here.size();
-          find_near(tree, points, limit, options, i, here);
-          const auto first = here.begin() + static_cast<std::ptrdiff_t>(known);
-          here.erase(keep(i, first, here.end()), here.end());
-          std::sort(first, here.end(), [](const NearSphere& a, const NearSphere& b) {
-            return a.id != b.id ? a.id < b.id : a.distance < b.distance;
-          });
+          find_near(tree, tree.stored(points.at(i)), limit(i) * tree.scale, options, here);
+          std::sort(here.begin() + static_cast<std::ptrdiff_t>(known), here.end(), is_before_by_id);
           count_of(i) = static_cast<std::int64_t>(here.size() - known);
         },
         [&](std::int64_t first, const std::vector<std::uint32_t>& order) {
@@ -160,10 +158,14 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
   }
 }
 
-// All of them count.
-constexpr auto kKeepAll = [](std::int64_t, auto, auto end) { return end; };
-
 }  // namespace
+
+Status check_reach(const PeriodicImages& images, double limit) {
+  if (images.images_within(limit) <= kMostImages) return Done{};
+  return Error{"the limit of the distance reaches more than a million images of the periodic cell", "", 0, 0,
+               "ask for a smaller distance, or without images"};
+}
+
 }  // namespace wide
 
 Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& points, std::int64_t per_point,
@@ -209,13 +211,13 @@ Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& po
 Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, const double* limits,
                                    const PointOptions& options) {
   return wide::find_lists(
-      tree, points, [limits](std::int64_t i) { return limits[i]; }, options, wide::kKeepAll);
+      tree, points, [limits](std::int64_t i) { return limits[i]; }, options);
 }
 
 Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, double limit,
                                    const PointOptions& options) {
   return wide::find_lists(
-      tree, points, [limit](std::int64_t) { return limit; }, options, wide::kKeepAll);
+      tree, points, [limit](std::int64_t) { return limit; }, options);
 }
 
 Result<std::vector<std::int64_t>> count_within(const WideTree& tree, const PointSpan& points, const double* limits,
@@ -230,7 +232,7 @@ Result<std::vector<std::int64_t>> count_within(const WideTree& tree, const Point
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
           room.clear();
-          wide::find_near(tree, points, limit, options, i, room);
+          wide::find_near(tree, tree.stored(points.at(i)), limit(i) * tree.scale, options, room);
           counts[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(room.size());
         },
         [](std::int64_t, const std::vector<std::uint32_t>&) {});
@@ -253,56 +255,6 @@ Result<SphereLists> spheres_overlapping(const WideTree& tree, const PointSpan& p
     if (!(radii[i] >= 0 && std::isfinite(radii[i])))
       return wide::bad_point(i, "the radius must be finite and not negative", radii[i]);
   return spheres_within(tree, points, radii, options);
-}
-
-Result<SpherePairs> sphere_pairs(const WideTree& tree, const SphereSet& spheres, double reach,
-                                 const PointOptions& options) {
-  if (std::isnan(reach)) return Error{"the limit of the distance must be a number but is nan", "", 0, 0, ""};
-  const auto count = spheres.size();
-  const bool to_surface = options.to == DistanceTo::surface;
-  try {
-    // Ask about each centre. A sphere that the mask passes over asks about nothing.
-    std::vector<double> centres(3 * static_cast<std::size_t>(count));
-    for (std::int64_t i = 0; i < count; ++i) {
-      const Vec3d at = spheres.centre(i);
-      for (int axis = 0; axis < 3; ++axis) centres[static_cast<std::size_t>(3 * i + axis)] = at[axis];
-    }
-    const auto is_passed_over = [&](std::int64_t i) { return options.mask != nullptr && options.mask[i] == 0; };
-    const auto limit = [&](std::int64_t i) {
-      if (is_passed_over(i)) return -wide::kInfiniteDistance;
-      return to_surface ? reach + spheres.radius(i) : reach;
-    };
-    // Each pair is found from both ends; the smaller id keeps it. An image of the sphere itself is found as often as
-    // the opposite image, next to it in the order of distances, and the sphere itself at no distance.
-    const auto keep = [&](std::int64_t i, auto begin, auto end) {
-      end = std::remove_if(begin, end, [i](const wide::NearSphere& near) { return near.id < i; });
-      const auto own = std::partition(begin, end, [i](const wide::NearSphere& near) { return near.id > i; });
-      std::sort(own, end);
-      auto to = own;
-      for (auto from = own; from < end; ++from)
-        if ((from - own) % 2 == 1) *to++ = *from;
-      return to;
-    };
-    Result<SphereLists> lists = wide::find_lists(tree, PointSpan::rows(centres.data(), count), limit, options, keep);
-    if (!lists) return lists.error();
-
-    // Store the first of each pair.
-    SpherePairs pairs;
-    pairs.second = std::move(lists->sphere_id);
-    pairs.distance = std::move(lists->distance);
-    pairs.first.resize(pairs.second.size());
-    for (std::int64_t i = 0; i < count; ++i) {
-      const auto from = static_cast<std::size_t>(lists->begin[static_cast<std::size_t>(i)]);
-      const auto to = static_cast<std::size_t>(lists->begin[static_cast<std::size_t>(i) + 1]);
-      for (std::size_t k = from; k < to; ++k) {
-        pairs.first[k] = i;
-        if (to_surface) pairs.distance[k] -= spheres.radius(i);
-      }
-    }
-    return pairs;
-  } catch (const std::bad_alloc&) {
-    return wide::no_memory_for_points(count);
-  }
 }
 
 }  // namespace bihive

@@ -58,6 +58,46 @@ void find_within_on_target(const WideTree& tree, const wide::PointQuestion& ques
   PointWalk(tree, question).run(answer);
 }
 
+void find_pairs_of_leaf_on_target(const WideTree& tree, std::int64_t first, std::int64_t count, double reach,
+                                  DistanceTo to, const std::uint8_t* mask, std::vector<wide::NearSphere>& found,
+                                  std::int64_t* counts) {
+  // Gather the spheres that may be near any of these.
+  const WideSpheres& spheres = tree.spheres;
+  const auto limit_of = [&](std::int64_t slot) {
+    return to == DistanceTo::surface ? reach + spheres.radius(slot) : reach;
+  };
+  Vec3d lo = spheres.centre(first), hi = lo;
+  double largest = limit_of(first);
+  for (std::int64_t slot = first + 1; slot < first + count; ++slot) {
+    const Vec3d centre = spheres.centre(slot);
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = std::min(lo[axis], centre[axis]);
+      hi[axis] = std::max(hi[axis], centre[axis]);
+    }
+    largest = std::max(largest, limit_of(slot));
+  }
+  wide::PointQuestion question{lo, largest, to, mask};
+  PointWalk walk(tree, question);
+  walk.set_box(lo, hi);
+  thread_local PointWalk::Candidates of_thread;
+  PointWalk::Candidates& near = of_thread;
+  walk.gather(largest, near);
+
+  // Each of them asks about these alone.
+  for (std::int64_t slot = first; slot < first + count; ++slot) {
+    const std::size_t known = found.size();
+    const std::int64_t asking = spheres.id(slot);
+    question.point = spheres.centre(slot);
+    if (mask == nullptr || mask[asking] != 0)
+      walk.test_candidates(near, limit_of(slot), [&](double distance, std::int64_t id) HWY_ATTR {
+        if (id > asking) found.push_back({distance, id});
+      });
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(known), found.end(),
+              [](const wide::NearSphere& a, const wide::NearSphere& b) { return a.id < b.id; });
+    counts[slot - first] = static_cast<std::int64_t>(found.size() - known);
+  }
+}
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace bihive
@@ -67,6 +107,7 @@ HWY_AFTER_NAMESPACE();
 namespace bihive {
 HWY_EXPORT(find_nearest_on_target);
 HWY_EXPORT(find_within_on_target);
+HWY_EXPORT(find_pairs_of_leaf_on_target);
 
 namespace wide {
 
@@ -79,6 +120,12 @@ std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, s
 void find_within(const WideTree& tree, const PointQuestion& question, std::vector<NearSphere>& found) {
   ensure_target();
   HWY_DYNAMIC_DISPATCH(find_within_on_target)(tree, question, found);
+}
+
+void find_pairs_of_leaf(const WideTree& tree, std::int64_t first, std::int64_t count, double reach, DistanceTo to,
+                        const std::uint8_t* mask, std::vector<NearSphere>& found, std::int64_t* counts) {
+  ensure_target();
+  HWY_DYNAMIC_DISPATCH(find_pairs_of_leaf_on_target)(tree, first, count, reach, to, mask, found, counts);
 }
 
 }  // namespace wide
