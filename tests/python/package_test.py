@@ -79,11 +79,36 @@ class Types(ProgramTest):
     def test_mypy(self):
         # Debian's mypy runs under Debian's python, and looks into the folder where it is called.
         done = subprocess.run(
-            [shutil.which("mypy"), "--strict", "--cache-dir", self.path("cache"), "-p", "bihive"],
+            [shutil.which("mypy"), "--strict", "--enable-incomplete-feature=Unpack", "--cache-dir", self.path("cache"), "-p", "bihive"],
             cwd=os.path.dirname(PACKAGE), capture_output=True, text=True, timeout=PATIENCE_S,
         )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue(os.path.exists(os.path.join(PACKAGE, "py.typed")))
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed: scripts/setup test installs it")
+    def test_a_checker_finds_wrong_options_and_knows_the_answers(self):
+        program = self.path("user.py")
+        with open(program, "w", encoding="utf-8") as file:
+            file.write(
+                "import bihive as bh\n"
+                "p = bh.render('demo', size=(8, 6), samples=1, ao=True, eye=(0, 0, 9), view='normal', looks=bh.Look('all'), fog=None)\n"
+                "bh.render('demo', ao='yes')\n"
+                "bh.render('demo', opacty_rule='once')\n"
+                "bh.read('demo', frame='x')\n"
+                "hits = bh.Tree(bh.read('demo')).closest([[0, 0, 0]], [1, 0, 0])\n"
+                "reveal_type(hits.t)\n"
+                "reveal_type(hits.normals())\n"
+            )
+        done = subprocess.run(
+            [shutil.which("mypy"), "--strict", "--enable-incomplete-feature=Unpack", "--cache-dir", self.path("cache"), program],
+            capture_output=True, text=True, timeout=PATIENCE_S, env={**os.environ, "MYPYPATH": os.path.dirname(PACKAGE)},
+        )
+        found = [line.split("user.py:")[1] for line in done.stdout.splitlines() if "user.py:" in line]
+        for line, says in ((3, 'Argument "ao"'), (4, 'did you mean "opacity_rule"'), (5, 'Argument "frame"')):
+            self.assertTrue(any(one.startswith(f"{line}: error: ") and says in one for one in found), done.stdout)
+        for line in (7, 8):
+            self.assertTrue(any(one.startswith(f"{line}: note: ") and "numpy.floating" in one for one in found), done.stdout)
+        self.assertEqual(sum(": error: " in one for one in found), 3, done.stdout)
 
     def test_the_stub_names_what_the_module_has(self):
         from bihive import _bihive

@@ -5,16 +5,22 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 
 from . import _bihive
-from ._camera import Style
+from ._camera import Look, Style
 from ._checks import path_of
 from ._errors import bad_argument, found
 from ._picture import Picture
 from ._progress import Bar
 from ._render import Camera, Progress, picture_of, picture_words
 from ._spheres import check_readable
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from typing_extensions import Unpack
+
+    from ._option_types import RenderOptions
 
 __all__ = ["Verdict", "again", "verify"]
 
@@ -95,10 +101,10 @@ def again(
     camera: Camera = None,
     style: Union[Path, Style, dict[str, Any], None] = None,
     size: Optional[tuple[int, int]] = None,
-    select: Any = None,
-    looks: Any = None,
+    select: Union[str, npt.ArrayLike, None] = None,
+    looks: Union[Look, Sequence[Look], None] = None,
     progress: Progress = None,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draws a figure again, of the same or of another input, with changes, as ``bihive again`` does.
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _bihive
 from ._adapt import is_atom_group, is_universe, spheres_of
-from ._camera import Style
+from ._camera import Look, Style
 from ._checks import boolean, path_of, several
 from ._errors import MissingError, UsageError, bad_argument, found, shortened, writing
 from ._options import option, words_of
@@ -20,6 +20,7 @@ from ._spheres import Spheres, check_readable
 
 # Films alone need these, and they would take half of the time of an import of this package.
 if TYPE_CHECKING:
+    import numpy.typing as npt
     import subprocess
     from fractions import Fraction
 
@@ -332,8 +333,8 @@ def film(
     camera: Camera = None,
     style: Any = None,
     size: Optional[tuple[int, int]] = None,
-    select: Any = None,
-    looks: Any = None,
+    select: Union[str, npt.ArrayLike, None] = None,
+    looks: Union[Look, Sequence[Look], None] = None,
     progress: Progress = None,
     **options: Any,
 ) -> int:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
 import numpy as np
 
 from . import _bihive
 from ._errors import UsageError
+
+if TYPE_CHECKING:
+    from ._types import Floats, Ids
 
 __all__ = ["ClosestHits", "Hits", "HitDerivatives", "Near", "Pairs"]
 
@@ -22,10 +25,10 @@ class HitDerivatives(NamedTuple):
     normal_by_radius: (..., 3). With the outward normal n and the direction d: dt = (n . dc + dr) / (n . d).
     """
 
-    t_by_centre: Array
-    t_by_radius: Array
-    normal_by_centre: Array
-    normal_by_radius: Array
+    t_by_centre: Floats
+    t_by_radius: Floats
+    normal_by_centre: Floats
+    normal_by_radius: Floats
 
 
 class RayQuery:
@@ -34,7 +37,7 @@ class RayQuery:
     def __init__(self, tree: _bihive.Tree, ids_in_tree: Any, rays: tuple[Array, Array], images: bool) -> None:
         self.tree, self.ids_in_tree, self.rays, self.images = tree, ids_in_tree, rays, images
 
-    def surfaces(self, ray: Optional[Array], t: Any, ids: Any, derivatives: bool) -> tuple[Array, ...]:
+    def surfaces(self, ray: Optional[Array], t: Any, ids: Any, derivatives: bool) -> tuple[Floats, ...]:
         """Arrays of the surface at each hit, with the shape of `t` in front of their own."""
         t, ids = np.asarray(t), np.asarray(ids)
         flat = self.ids_in_tree(np.ascontiguousarray(ids.reshape(-1)))
@@ -46,32 +49,31 @@ class _Surfaces:
     """What hits know besides t and id."""
 
     _query: Optional[RayQuery] = None
-    t: Any
-    id: Any
 
-    def _ray(self) -> Optional[Array]:
-        return None
+    def _hits(self) -> tuple[Optional[Array], Any, Any]:
+        """The ray of each hit (None: hit i is that of ray i), t and id."""
+        raise NotImplementedError
 
-    def _surfaces(self, derivatives: bool = False) -> tuple[Array, ...]:
+    def _surfaces(self, derivatives: bool = False) -> tuple[Floats, ...]:
         if self._query is None:
             raise UsageError("hits that were pickled, copied or made by hand know no rays: ask a Tree")
-        return self._query.surfaces(self._ray(), self.t, self.id, derivatives)
+        return self._query.surfaces(*self._hits(), derivatives)
 
     def __getstate__(self) -> None:
         return None  # the rays and the tree stay where they are
 
-    def positions(self) -> Array:
+    def positions(self) -> Floats:
         """float64 (..., 3): the hit points, on the surface of their spheres; world units, NaN for none.
 
         Computed now, of the rays' own arrays: UsageError if these have changed since, so that they are other rays.
         """
         return self._surfaces()[0]
 
-    def normals(self) -> Array:
+    def normals(self) -> Floats:
         """float64 (..., 3): the outward normals of the spheres at the hit points, length 1; NaN for none. As positions()."""
         return self._surfaces()[1]
 
-    def exits(self) -> Array:
+    def exits(self) -> Floats:
         """float64 (...): the t at which each ray leaves the sphere that it hit, if nothing else stops it: t itself for a hit
         from inside; NaN for none. As positions()."""
         return self._surfaces()[2]
@@ -82,8 +84,8 @@ class _Surfaces:
 
 
 class _ClosestHits(NamedTuple):
-    t: Any
-    id: Any
+    t: Floats
+    id: Ids
 
 
 class ClosestHits(_Surfaces, _ClosestHits):
@@ -97,12 +99,15 @@ class ClosestHits(_Surfaces, _ClosestHits):
     ([[-1.0, 0.0, 0.0], [nan, nan, nan]], [6.0, nan])
     """
 
+    def _hits(self) -> tuple[Optional[Array], Any, Any]:
+        return None, self.t, self.id
+
 
 class _Hits(NamedTuple):
-    ray: Array
-    t: Array
-    id: Array
-    begin: Array
+    ray: Ids
+    t: Floats
+    id: Ids
+    begin: Ids
 
 
 class Hits(_Surfaces, _Hits):
@@ -112,13 +117,13 @@ class Hits(_Surfaces, _Hits):
     int64 (rays + 1): the hits of ray i are those from begin[i] to before begin[i + 1].
     """
 
-    def _ray(self) -> Optional[Array]:
-        return self.ray
+    def _hits(self) -> tuple[Optional[Array], Any, Any]:
+        return self.ray, self.t, self.id
 
     @property
-    def counts(self) -> Array:
+    def counts(self) -> Ids:
         """The number of hits of each ray: int64 (rays,)."""
-        made: Array = np.diff(self.begin)
+        made: Ids = np.diff(self.begin)
         return made
 
 
@@ -130,14 +135,14 @@ class Near(NamedTuple):
     0 inside a sphere.
     """
 
-    begin: Array
-    id: Array
-    distance: Array
+    begin: Ids
+    id: Ids
+    distance: Floats
 
     @property
-    def counts(self) -> Array:
+    def counts(self) -> Ids:
         """The number of spheres of each point: int64 (points,)."""
-        made: Array = np.diff(self.begin)
+        made: Ids = np.diff(self.begin)
         return made
 
 
@@ -147,6 +152,6 @@ class Pairs(NamedTuple):
     first, second: int64, positions, first < second; equal for a sphere and an image of itself. distance: float64.
     """
 
-    first: Array
-    second: Array
-    distance: Array
+    first: Ids
+    second: Ids
+    distance: Floats

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Union
 
 from . import _bihive
 from ._adapt import spheres_of
@@ -16,6 +16,12 @@ from ._picture import Picture
 from ._progress import Bar
 from ._select import NOBODY, selected
 from ._spheres import Spheres, check_readable
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from typing_extensions import Unpack
+
+    from ._option_types import RenderOptions
 
 __all__ = ["render"]
 
@@ -81,10 +87,10 @@ def render(
     camera: Camera = None,
     style: Union[str, os.PathLike[str], Style, dict[str, Any], None] = None,
     size: Optional[tuple[int, int]] = None,
-    select: Any = None,
-    looks: Any = None,
+    select: Union[str, npt.ArrayLike, None] = None,
+    looks: Union[Look, Sequence[Look], None] = None,
     progress: Progress = None,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draws spheres.
 

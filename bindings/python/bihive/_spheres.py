@@ -6,16 +6,23 @@ import difflib
 import os
 import re
 import warnings
-from typing import Any, Iterator, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _bihive
 from ._arrays import as_array, numbers, one_each, texts, whole_numbers
 from ._checks import boolean, mapping, one_of, path_of, several, text_of, whole_text
-from ._colours import light_of
+from ._colours import Linear, light_of
 from ._errors import FileError, InputError, InputWarning, UsageError, bad_argument, found, shortened, writing
 from ._options import words_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from typing_extensions import Unpack
+
+    from ._option_types import ReadOptions
+    from ._types import Booleans, Floats
 
 __all__ = ["Spheres", "read", "convert", "select", "stats", "colour_map"]
 
@@ -230,17 +237,17 @@ class Spheres:
 
     def __init__(
         self,
-        xyz: Any = None,
-        radius: Any = None,
-        colour: Any = None,
-        opacity: Any = None,
+        xyz: Optional[npt.ArrayLike] = None,
+        radius: Optional[npt.ArrayLike] = None,
+        colour: Union[npt.ArrayLike, Linear, None] = None,
+        opacity: Optional[npt.ArrayLike] = None,
         *,
-        element: Any = None,
-        type: Any = None,
-        cell: Any = None,
-        periodic: Any = True,
+        element: Optional[npt.ArrayLike] = None,
+        type: Optional[npt.ArrayLike] = None,
+        cell: Optional[npt.ArrayLike] = None,
+        periodic: npt.ArrayLike = True,
         name: str = "spheres",
-        columns: Optional[Mapping[str, Any]] = None,
+        columns: Optional[Mapping[str, npt.ArrayLike]] = None,
         **other_names: Any,
     ) -> None:
         given, spelled = _by_their_own_names({"xyz": xyz, "radius": radius, "colour": colour}, other_names)
@@ -296,22 +303,22 @@ class Spheres:
         return made
 
     @property
-    def xyz(self) -> Array:
+    def xyz(self) -> Floats:
         """float64 (n, 3): centres as they are kept, in world units; a new array."""
         return self._core.xyz
 
     @property
-    def radius(self) -> Array:
+    def radius(self) -> Floats:
         """float64 (n,): radii as they are kept, in world units; a new array."""
         return self._core.radius
 
     @property
-    def bounds(self) -> Array:
+    def bounds(self) -> Floats:
         """float64 (2, 3): lowest and highest corner of the box around all spheres, world units."""
         return self._core.bounds
 
     @property
-    def cell(self) -> Optional[Array]:
+    def cell(self) -> Optional[Floats]:
         """float64 (4, 3): the three vectors of the periodic cell and its corner; None: there is none."""
         return self._core.cell
 
@@ -387,17 +394,17 @@ class Spheres:
         return left_out
 
     @property
-    def elements(self) -> Optional[Array]:
+    def elements(self) -> Optional[npt.NDArray[np.str_]]:
         """The symbols of the elements, str (n,), "" where none is known; None: the set has no elements. s["element"] are their
         numbers."""
         numbers_of = self._core.element
         if numbers_of is None:
             return None
         symbols = np.array([""] + [_bihive.element_symbol(number) for number in range(1, 119)])
-        made: Array = symbols[numbers_of]
+        made: npt.NDArray[np.str_] = symbols[numbers_of]
         return made
 
-    def with_columns(self, columns: Mapping[str, Any]) -> Spheres:
+    def with_columns(self, columns: Mapping[str, Optional[npt.ArrayLike]]) -> Spheres:
         """The same spheres with more attributes, or with others of the same names; all else stays, bit for bit.
 
         columns: as those of Spheres(). None as the values of a name: without it.
@@ -414,7 +421,7 @@ class Spheres:
         numbers_of, texts_of = _columns({name: values for name, values in columns.items() if values is not None}, len(self))
         return Spheres._of(self._core.with_columns(list(numbers_of.items()), list(texts_of.items()), without))
 
-    def moved(self, xyz: Any, radius: Any = None) -> Spheres:
+    def moved(self, xyz: npt.ArrayLike, radius: Optional[npt.ArrayLike] = None) -> Spheres:
         """The same spheres in other places: their attributes, cell and all else stay.
 
         xyz: shape (n, 3); radius: one number, or shape (n,); left out: they keep theirs.
@@ -592,7 +599,7 @@ def check_readable(path: Union[str, os.PathLike[str]], name: str = "path") -> st
     return text
 
 
-def read(path: Union[str, os.PathLike[str]], **options: Any) -> Spheres:
+def read(path: Union[str, os.PathLike[str]], **options: Unpack[ReadOptions]) -> Spheres:
     """The spheres of a file of any format that ``bihive render`` reads, or of a built-in name ("demo").
 
     options: frame (from 0; -1 is the last), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, periodic,
@@ -615,8 +622,8 @@ def convert(
     path: Union[str, os.PathLike[str]],
     *,
     format: Optional[str] = None,
-    select: Any = None,
-    **options: Any,
+    select: Union[str, npt.ArrayLike, None] = None,
+    **options: Unpack[ReadOptions],
 ) -> list[str]:
     """Reads a file and writes it in another format: ``read(source, **options)``, then ``Spheres.save(path, format)``.
 
@@ -628,7 +635,7 @@ def convert(
     return spheres.save(path, format)
 
 
-def select(spheres: Spheres, expression: str, *, periodic: bool = True) -> Array:
+def select(spheres: Spheres, expression: str, *, periodic: bool = True) -> Booleans:
     """bool (n,): which spheres a selection (docs/selections.md) takes. Raises UsageError that shows the faulty column.
 
     periodic: distances see the images along the spheres' cell, if they have one.
@@ -646,7 +653,7 @@ def select(spheres: Spheres, expression: str, *, periodic: bool = True) -> Array
     return found_spheres
 
 
-def stats(spheres: Spheres, *, max_prims: Any = None, max_depth: Any = None) -> dict[str, Any]:
+def stats(spheres: Spheres, *, max_prims: Union[int, str, None] = None, max_depth: Union[int, str, None] = None) -> dict[str, Any]:
     """Statistics of both trees, as ``bihive stats --json`` prints them: nodes, depths, overlap, memory in bytes.
 
     >>> stats(read("demo"))["spheres"]
@@ -676,7 +683,13 @@ def _map_text(map: Any) -> str:
     return "-".join(map)
 
 
-def colour_map(values: Any, map: Any = None, range: Any = None, log: bool = False, nan_colour: str = "grey") -> Array:
+def colour_map(
+    values: npt.ArrayLike,
+    map: Union[str, os.PathLike[str], Sequence[str], None] = None,
+    range: Optional[Sequence[float]] = None,
+    log: bool = False,
+    nan_colour: str = "grey",
+) -> Floats:
     """float64 (n, 3): the colours that ``--colour-by`` gives these values, as a screen shows them.
 
     values: numbers or texts, shape (n,). map: "viridis", "RdBu_r" or another of ``bihive render --help-all``, a list of 2 to 1024

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
@@ -15,6 +15,11 @@ from ._errors import Error, InputError, bad_argument, found
 from ._hits import ClosestHits, Hits, Near, Pairs, RayQuery
 from ._options import words_of
 from ._spheres import Spheres, chosen
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from ._types import Booleans, Floats, Ids
 
 __all__ = ["Tree"]
 
@@ -58,11 +63,11 @@ class Tree:
         self,
         spheres: Any,
         *,
-        select: Any = None,
+        select: Union[str, npt.ArrayLike, None] = None,
         periodic: bool = True,
         engine: str = "auto",
-        max_prims: Any = None,
-        max_depth: Any = None,
+        max_prims: Union[int, str, None] = None,
+        max_depth: Union[int, str, None] = None,
         threads: int = 0,
     ) -> None:
         _bihive.check_environment()
@@ -79,7 +84,7 @@ class Tree:
         part = None if self._ids is None else self._ids.tolist()
         return _bihive.build_tree(spheres._core, part, self._sees_images, self._options)
 
-    def update(self, xyz: Any, radius: Any = None) -> None:
+    def update(self, xyz: npt.ArrayLike, radius: Optional[npt.ArrayLike] = None) -> None:
         """Moves the spheres, whose attributes stay, and builds the tree anew. Queries that run meanwhile keep the old one.
 
         xyz: shape (n, 3), of all spheres; radius: one number, or shape (n,); left out: as before. With `select` the same
@@ -119,13 +124,13 @@ class Tree:
 
     def closest(
         self,
-        origins: Any,
-        directions: Any,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
         *,
-        t_min: Any = None,
-        t_max: Any = None,
-        leaves: Any = None,
-        inside: Any = None,
+        t_min: Optional[npt.ArrayLike] = None,
+        t_max: Optional[npt.ArrayLike] = None,
+        leaves: Optional[npt.ArrayLike] = None,
+        inside: Optional[npt.ArrayLike] = None,
         periodic: bool = False,
         order: str = "any",
     ) -> ClosestHits:
@@ -159,16 +164,16 @@ class Tree:
 
     def occluded(
         self,
-        origins: Any,
-        directions: Any,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
         *,
-        t_min: Any = None,
-        t_max: Any = None,
-        leaves: Any = None,
-        inside: Any = None,
+        t_min: Optional[npt.ArrayLike] = None,
+        t_max: Optional[npt.ArrayLike] = None,
+        leaves: Optional[npt.ArrayLike] = None,
+        inside: Optional[npt.ArrayLike] = None,
         periodic: bool = False,
         order: str = "any",
-    ) -> Array:
+    ) -> Booleans:
         """Whether each ray hits anything: bool, with the shape of the rays. Arguments as those of closest(); faster than that."""
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images, in_blocks = self._images(periodic), _in_blocks(order)
@@ -176,18 +181,18 @@ class Tree:
             hidden = self._core.occluded(*rays, images, in_blocks)
         except InputError as error:
             raise _of_t_max(error) from None
-        made: Array = hidden.reshape(shape)[()]
+        made: Booleans = hidden.reshape(shape)[()]
         return made
 
     def all_hits(
         self,
-        origins: Any,
-        directions: Any,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
         *,
-        t_min: Any = None,
-        t_max: Any = None,
-        leaves: Any = None,
-        inside: Any = None,
+        t_min: Optional[npt.ArrayLike] = None,
+        t_max: Optional[npt.ArrayLike] = None,
+        leaves: Optional[npt.ArrayLike] = None,
+        inside: Optional[npt.ArrayLike] = None,
         periodic: bool = False,
         k: Optional[int] = None,
     ) -> Hits:
@@ -214,14 +219,14 @@ class Tree:
 
     def nearest(
         self,
-        points: Any,
+        points: npt.ArrayLike,
         k: int = 1,
         *,
         within: Optional[float] = None,
         to: str = "surface",
-        mask: Any = None,
-        exclude: Any = None,
-    ) -> tuple[Array, Array]:
+        mask: Union[str, npt.ArrayLike, None] = None,
+        exclude: Optional[npt.ArrayLike] = None,
+    ) -> tuple[Floats, Ids]:
         """The k nearest spheres of each point: distances, float64, inf where there are fewer; and positions, int64, -1 there.
 
         points: shape (..., 3), as (n, 3), or (3,) for one; float64 decides. Finite, and at most 3.4e38 in size.
@@ -261,7 +266,7 @@ class Tree:
             return distance.reshape(shape)[()], ids.reshape(shape)[()]
         return distance.reshape(*shape, wanted), ids.reshape(*shape, wanted)
 
-    def within(self, points: Any, limits: Any, *, to: str = "surface", mask: Any = None, exclude: Any = None) -> Near:
+    def within(self, points: npt.ArrayLike, limits: npt.ArrayLike, *, to: str = "surface", mask: Union[str, npt.ArrayLike, None] = None, exclude: Optional[npt.ArrayLike] = None) -> Near:
         """Every sphere at a distance of at most `limits` from each point: one number, or one for each point.
 
         points, to, mask, exclude: as those of nearest(). To the surface, a limit of 0 gives the spheres that contain the point,
@@ -270,7 +275,7 @@ class Tree:
         where, shape = _points(points)
         return self._within("limits", where, _limits(limits, shape), to, mask, self._own(exclude, shape))
 
-    def count_within(self, points: Any, limits: Any, *, to: str = "surface", mask: Any = None, exclude: Any = None) -> Array:
+    def count_within(self, points: npt.ArrayLike, limits: npt.ArrayLike, *, to: str = "surface", mask: Union[str, npt.ArrayLike, None] = None, exclude: Optional[npt.ArrayLike] = None) -> Ids:
         """The number of these spheres: int64, with the shape of the points. Arguments as those of within(), whose lists it does
         not keep.
 
@@ -286,10 +291,10 @@ class Tree:
             counts = self._core.count_within(where, most, self._mask(mask), _to_centre(to))
         except InputError as error:
             raise self._of_points("limits", where, error) from None
-        made: Array = counts.reshape(shape)[()]
+        made: Ids = counts.reshape(shape)[()]
         return made
 
-    def contains(self, points: Any, *, mask: Any = None, exclude: Any = None) -> Near:
+    def contains(self, points: npt.ArrayLike, *, mask: Union[str, npt.ArrayLike, None] = None, exclude: Optional[npt.ArrayLike] = None) -> Near:
         """Every sphere that contains each point, its surface included. Arguments as those of nearest().
 
         >>> tree = Tree(Spheres([[0.0, 0, 0], [1, 0, 0]], radius=1))
@@ -298,7 +303,7 @@ class Tree:
         """
         return self.within(points, 0.0, mask=mask, exclude=exclude)
 
-    def overlaps(self, points: Any, radii: Any, *, mask: Any = None, exclude: Any = None) -> Near:
+    def overlaps(self, points: npt.ArrayLike, radii: npt.ArrayLike, *, mask: Union[str, npt.ArrayLike, None] = None, exclude: Optional[npt.ArrayLike] = None) -> Near:
         """Every sphere that shares a point with the ball of radius `radii` (one number, or one for each point) around each point.
 
         points, mask, exclude: as those of nearest().
@@ -309,7 +314,7 @@ class Tree:
             raise bad_argument("radii", "expected finite numbers of at least 0")
         return self._within("radii", where, np.ascontiguousarray(sizes, dtype=np.float64), "surface", mask, self._own(exclude, shape))
 
-    def pairs(self, reach: float, *, to: str = "surface", mask: Any = None) -> Pairs:
+    def pairs(self, reach: float, *, to: str = "surface", mask: Union[str, npt.ArrayLike, None] = None) -> Pairs:
         """Every pair of spheres at a distance of at most `reach`, once: between their surfaces (0: those that touch or overlap),
         or with to="centre" between their centres.
 

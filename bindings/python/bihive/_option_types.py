@@ -1,0 +1,126 @@
+"""The types of options, written by scripts/settings_tables from the tables of options."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Literal, Mapping, Optional, Sequence, TypedDict, Union
+
+if TYPE_CHECKING:
+    from ._colours import Linear
+
+__all__ = ["ReadOptions", "RenderOptions"]
+
+Path = Union[str, "os.PathLike[str]"]
+Colour = Union[str, Sequence[float], "Linear"]
+
+
+class RenderOptions(TypedDict, total=False):
+    """Options of render(), and of films and figures; None: as if left out."""
+
+    crop: Optional[Sequence[float]]  # Draw only this rectangle of its pixels, counted from the top left corner; X1, Y1 are exclusive
+    view: Optional[Literal["shaded", "recursion", "traversal", "normal", "distance", "id", "tree"]]  # What the picture shows (shaded)
+    samples: Optional[Union[int, Literal["auto"]]]  # Samples per pixel, 1 to 4096 (files: 4, thesis scenes: 1, with an aperture 64); auto: 4, and 16 on edges
+    recursion: Optional[int]  # Generations of rays; 1: primary rays only (5)
+    matte: Optional[Colour]  # With a transparent background: the colour that will lie behind the picture, to which edges, fog and letters are fitted
+    fit_share: Optional[float]  # The share of the spheres, along each axis, that the camera brings into view: 0.98 leaves out 1 % at either end (1, or the style's)
+    stereo: Optional[Literal["none", "side", "cross", "anaglyph"]]  # Views of both eyes: next to each other, the same for crossed eyes, or red and cyan (none)
+    eye_distance: Optional[float]  # Of stereo pictures: the distance between the eyes as a share of that to the camera's target (1/30)
+    transfer: Optional[Literal["srgb", "none"]]  # Curve from radiance to pixels (files: srgb, thesis scenes: none)
+    background: Optional[Colour]  # A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)
+    floor: Optional[Colour]  # A plane below the spheres: in a colour, or seen by the shadows on it alone
+    bits: Optional[Literal[8, 16]]  # Bits of each number in the picture (8)
+    dpi: Optional[int]  # Pixels per inch in print: for letters, lines in points, and a note in the file
+    light: Optional[Union[str, Sequence[str]]]  # The lights (the style's or the scene's): thesis|studio|cloudy|headlight, from:RIGHT,UP,TOWARDS[:COLOUR[:STRENGTH[:DEG]]] around the camera, or at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]] in the world; repeatable
+    shadows: Optional[bool]  # Spheres cast shadows (files: yes, thesis scenes: no)
+    ao: Optional[bool]  # Ambient occlusion: surfaces that see little of their surroundings are darker
+    ao_distance: Optional[float]  # Reach of ambient occlusion in world units (no limit); implies --ao
+    ao_directions: Optional[int]  # Directions of ambient occlusion per sample (64); implies --ao
+    opacity_rule: Optional[Literal["each_surface", "once", "first"]]  # Whether a transparent sphere weakens light at each surface, once, or if it is the first of its opacity along a ray (the style's)
+    light_points: Optional[int]  # Shadow rays per area light and sample (the style's)
+    fog: Optional[float]  # Share of the background at the set's farthest point; 0: none (the style's)
+    fog_start: Optional[float]  # Depth where fog begins: 0 at the set's nearest point, 1 at its farthest (0); implies --fog
+    fog_end: Optional[float]  # Depth where fog reaches its full strength; above its start (1); implies --fog
+    outline_step: Optional[float]  # Minimum depth step at an outline, in radii of the sphere in front (2)
+    outline_colour: Optional[Colour]  # Colour of outlines (black)
+    line_unit: Optional[Literal["px", "picture", "pt"]]  # Unit of the widths of outlines, creases and cell edges: pixels, 1/720 of the picture's shorter side, or points in print (styles: picture, scene files: px)
+    exposure: Optional[float]  # Stops: all light times 2^EV; the background keeps its colour (the style's)
+    tone: Optional[Literal["none", "soft", "filmic"]]  # Curve for light that is too bright for the picture (the style's)
+    view_from: Optional[str]  # Show the whole set from this side (files: front); principal: its longest axis along the picture's longer side; best: the direction that shows most of a selection
+    eye: Optional[Sequence[float]]  # Where the camera is
+    look_at: Optional[Union[Sequence[float], str]]  # The middle of the picture: a point, or the centre of the spheres of a selection; the eye stays
+    fit: Optional[str]  # These spheres alone are fitted into the picture, as if there were no others: the camera goes near them, and others may be beside or behind it
+    zoom_to: Optional[str]  # Magnify until these spheres fill the picture: the camera keeps its direction and distance, and shows what stands before them
+    up: Optional[Sequence[float]]  # The direction that is up in the picture
+    fov: Optional[float]  # Angle along the shorter side (30; less in pictures over twice as wide as high)
+    projection: Optional[Literal["perspective", "orthographic"]]  # orthographic: equal spheres look equally large at any distance (perspective)
+    turn: Optional[Sequence[float]]  # Degrees: the camera moves AZ to the right and EL up around its target; the picture turns ROLL counter-clockwise
+    zoom: Optional[float]  # Magnify everything F times (1)
+    aperture: Optional[float]  # Depth of field: the radius of the lens, in world units; 0: everything is sharp (0)
+    focus: Optional[Union[float, str]]  # With an aperture: the distance that is sharp, in world units, or the spheres that are, such as 'resname LIG' or 'index 12' (auto: the camera's target)
+    engine: Optional[Literal["auto", "wide", "reference", "brute", "wide-brute", "gpu", "gpu-brute"]]  # The engine (auto): those of the CPU give the same bits, a graphics processor nearly the same
+    max_prims: Optional[Union[int, Literal["unlimited"]]]  # Maximum spheres per leaf (the engine's choice; reference: 8)
+    max_depth: Optional[Union[int, Literal["unlimited"]]]  # Maximum levels of the tree (the engine's choice; reference: unlimited)
+    threads: Optional[int]  # Threads (0: as many as the machine runs at once)
+    count: Optional[int]  # Scenarios: number of spheres (4096)
+    seed: Optional[int]  # Scenarios: the seed of their random numbers (1)
+    radius: Optional[float]  # Radius of every sphere (scenarios: 1)
+    frame: Optional[int]  # Files: which frame or model, from 0; -1 is the last (0)
+    trajectory: Optional[Path]  # Files: coordinates of the same spheres per frame (DCD, H5MD, NetCDF of AMBER, TRR and XTC)
+    smooth: Optional[int]  # Files with frames: means of coordinates over N frames, an odd number, with the frame in the middle
+    recenter: Optional[bool]  # Files: move the middle of the set to the origin
+    assembly: Optional[Union[str, int]]  # PDB, mmCIF: copy the chains as this biological assembly says, e.g. 1; bihive info lists them
+    columns: Optional[Mapping[str, Union[str, float]]]  # CSV, HDF5, LAMMPS dump, NetCDF, NPY, NPZ, PCD, PLY, VTK, VTK XML and XYZ: columns by name or position, e.g. x=px,y=py,z=pz,r=5
+    replicate: Optional[tuple[int, int, int]]  # Files: this many copies along the vectors of the periodic cell
+    cell_vectors: Optional[Sequence[float]]  # Files: the three vectors of the cell (the file's)
+    cell_origin: Optional[Sequence[float]]  # Files: the corner of the cell (the file's, else 0,0,0)
+    periodic: Optional[bool]  # Files: distances see the images of the periodic cell (usual); rays of bihive trace too
+    wrap: Optional[Union[bool, Literal["molecules"]]]  # Files: move every centre into the cell
+    wrap_molecules: Optional[bool]  # Files: bring molecules together, and move each into the cell as a whole; also as the value molecules of wrap
+    unwrap: Optional[bool]  # Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues
+    colour: Optional[Colour]  # Colour them: a name, #rrggbb or r,g,b from 0 to 1
+    colour_by: Optional[str]  # Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed: viridis, magma, plasma, inferno, cividis, turbo, greys, coolwarm, RdBu, okabe-ito, colours such as blue-white-red, or a file of some
+    nan_colour: Optional[Colour]  # Colour of unknown numbers in the attribute that gives colours (grey)
+    opacity: Optional[float]  # Their opacity, 0 (clear) to 1
+    material: Optional[Literal["matte", "plastic", "metal", "glass", "flat", "toon"]]  # Their material (the style's)
+    radius_scale: Optional[float]  # After a selection: multiply their radii. Before: files, every radius
+    outline: Optional[float]  # After a selection: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)
+    crease: Optional[str]  # Lines between those that touch and differ in it, such as chain
+    legend_name: Optional[str]  # Name them in the legend: beside their colour, or above the key of their colour-by
+    clip: Optional[Union[str, Sequence[str]]]  # Cut them open: n.x > D, the box or the sphere is removed; repeatable
+    element_colours: Optional[Path]  # Colours of elements: a name, or a file with lines 'C #909090' (the style's)
+    no_hydrogens: Optional[bool]  # Hide hydrogen
+    no_water: Optional[bool]  # Hide water
+    cell: Optional[bool]  # Draw the edges of the periodic cell, and of its copies
+    cell_width: Optional[float]  # Width of the cell's edges in line units (2); implies --cell
+    cell_colour: Optional[Colour]  # Colour of the cell's edges (nearly black; light before a dark background); implies --cell
+    title: Optional[str]  # Title at the top; {time}, {step}, {frame}, {spheres} are values of the frame, {time:.2f} has two digits after the point
+    legend: Optional[bool]  # Legend of the colours: a colour bar, or names
+    legend_title: Optional[str]  # Title of the legend's colour bar or names, with its unit (the attribute's name)
+    axes: Optional[bool]  # Show the directions of x, y and z
+    scale_bar: Optional[bool]  # Show a round length of the world; for orthographic pictures
+    length_unit: Optional[str]  # Unit after the scale bar's number (PDB, mmCIF: Å; else none)
+    title_values: Optional[Path]  # CSV: a row for each frame, from 0; the first line names the columns: {NAME}
+    font: Optional[Path]  # Font of titles, legends and the rest: TrueType or OpenType (DejaVu Sans)
+    no_labels: Optional[bool]  # None of the labels that the scene file or the style asks for
+
+
+class ReadOptions(TypedDict, total=False):
+    """Options of read() and convert(); None: as if left out."""
+
+    radius: Optional[float]  # Radius of every sphere (scenarios: 1)
+    radius_scale: Optional[float]  # Files: multiply every radius
+    frame: Optional[int]  # Files: which frame or model, from 0; -1 is the last (0)
+    trajectory: Optional[Path]  # Files: coordinates of the same spheres per frame (DCD, H5MD, NetCDF of AMBER, TRR and XTC)
+    smooth: Optional[int]  # Files with frames: means of coordinates over N frames, an odd number, with the frame in the middle
+    recenter: Optional[bool]  # Files: move the middle of the set to the origin
+    assembly: Optional[Union[str, int]]  # PDB, mmCIF: copy the chains as this biological assembly says, e.g. 1; bihive info lists them
+    columns: Optional[Mapping[str, Union[str, float]]]  # CSV, HDF5, LAMMPS dump, NetCDF, NPY, NPZ, PCD, PLY, VTK, VTK XML and XYZ: columns by name or position, e.g. x=px,y=py,z=pz,r=5
+    replicate: Optional[tuple[int, int, int]]  # Files: this many copies along the vectors of the periodic cell
+    cell_vectors: Optional[Sequence[float]]  # Files: the three vectors of the cell (the file's)
+    cell_origin: Optional[Sequence[float]]  # Files: the corner of the cell (the file's, else 0,0,0)
+    periodic: Optional[bool]  # Files: distances see the images of the periodic cell (usual); rays of bihive trace too
+    wrap: Optional[Union[bool, Literal["molecules"]]]  # Files: move every centre into the cell
+    wrap_molecules: Optional[bool]  # Files: bring molecules together, and move each into the cell as a whole; also as the value molecules of wrap
+    unwrap: Optional[bool]  # Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues
+    count: Optional[int]  # Scenarios: number of spheres (4096)
+    seed: Optional[int]  # Scenarios: the seed of their random numbers (1)
