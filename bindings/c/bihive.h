@@ -106,6 +106,22 @@ BIHIVE_API void bihive_lists_free(bihive_lists* lists);
 BIHIVE_API int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
                              int distance_to, const uint8_t* mask, int threads, bihive_lists** lists);
 
+/* The lengths of these lists alone: counts[i] spheres are that near point i. */
+BIHIVE_API int bihive_count_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
+                                   int distance_to, const uint8_t* mask, int threads, int64_t* counts);
+
+/* Every pair of spheres at a distance of at most `reach`, once: the list of sphere i has its partners with larger ids.
+ * Between centres, or with BIHIVE_SURFACE between surfaces (0: those that touch or overlap). In a periodic cell a
+ * sphere and the images of others are pairs too, and so are a sphere and its own images. */
+BIHIVE_API int bihive_pairs(const bihive_tree* tree, double reach, int distance_to, const uint8_t* mask, int threads,
+                            bihive_lists** lists);
+
+/* Of the hits that bihive_closest gave for these rays: positions (xyz) on the spheres, outward normals (xyz) of length
+ * 1, and the t where each ray leaves the sphere that it hit; NaN for none. Any of the three may be NULL. It is an error
+ * if a hit is not that of its ray. */
+BIHIVE_API int bihive_surfaces(const bihive_tree* tree, const bihive_rays* rays, const double* t,
+                               const int64_t* spheres, int threads, double* positions, double* normals, double* exits);
+
 /* Every sphere that ray i hits, by t, then id; t is where the ray enters it (where it exits, if it starts inside). */
 BIHIVE_API int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int threads, bihive_lists** lists);
 

@@ -15,12 +15,14 @@
 #include "bihive/wide/periodic_images.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/queries.h"
+#include "bihive/wide/surface_of_hit.h"
 #include "bihive/wide/wide_builder.h"
 #include "c_errors.h"
 #include "c_spheres.h"
 
 struct bihive_tree {
   std::shared_ptr<const bihive::WideTree> tree;
+  bihive::SphereSet spheres;
   std::string warning;
   std::optional<bihive::PeriodicImages> images;
 };
@@ -155,14 +157,15 @@ int make_tree(const double* xyz, const double* radii, std::int64_t count, const 
     WideBuilder builder;
     const auto built = builder.build(*spheres, {}, threads);
     if (!built) return failed(built.error());
-    auto made = std::make_unique<bihive_tree>(bihive_tree{*built, std::move(warning), std::nullopt});
+    auto made =
+        std::make_unique<bihive_tree>(bihive_tree{*built, std::move(*spheres), std::move(warning), std::nullopt});
     if (vectors != nullptr) {
       Cell cell;
       for (std::size_t i = 0; i < 9; ++i) cell.vectors[i / 3][static_cast<int>(i % 3)] = vectors[i];
       for (const Vec3d& vector : cell.vectors)
         if (!is_finite(vector)) return failed("the vectors of the cell must be finite");
-      spheres->cell() = cell;
-      auto images = PeriodicImages::of(*spheres, threads);
+      made->spheres.cell() = cell;
+      auto images = PeriodicImages::of(made->spheres, threads);
       if (!images) return failed(images.error());
       made->images = std::move(*images);
     }
@@ -282,6 +285,68 @@ int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, con
     if (!found) return failed(found.error());
     *lists = new bihive_lists{std::move(found->begin), std::move(found->sphere_id), std::move(found->distance)};
     return kDone;
+  });
+}
+
+int bihive_count_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
+                        int distance_to, const uint8_t* mask, int threads, int64_t* counts) {
+  return guarded([&] {
+    if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
+    if (count > 0 && counts == nullptr) return failed("there is no place for the counts");
+    const std::vector<double> zeros(limits == nullptr ? static_cast<std::size_t>(count) : 0);
+    const auto found = count_within(*tree->tree, PointSpan::rows(xyz, count), limits != nullptr ? limits : zeros.data(),
+                                    options_of(*tree, distance_to, mask, threads));
+    if (!found) return failed(found.error());
+    std::copy(found->begin(), found->end(), counts);
+    return kDone;
+  });
+}
+
+int bihive_pairs(const bihive_tree* tree, double reach, int distance_to, const uint8_t* mask, int threads,
+                 bihive_lists** lists) {
+  if (lists == nullptr) return failed("there is no place for the lists");
+  *lists = nullptr;
+  return guarded([&] {
+    if (check_point_arguments(tree, nullptr, 0, distance_to, threads) != kDone) return kFailed;
+    auto pairs = sphere_pairs(*tree->tree, tree->spheres, reach, options_of(*tree, distance_to, mask, threads));
+    if (!pairs) return failed(pairs.error());
+    auto made = std::make_unique<bihive_lists>();
+    made->begin.assign(static_cast<std::size_t>(tree->spheres.size()) + 1, 0);
+    for (const std::int64_t first : pairs->first) ++made->begin[static_cast<std::size_t>(first) + 1];
+    for (std::size_t i = 1; i < made->begin.size(); ++i) made->begin[i] += made->begin[i - 1];
+    made->spheres = std::move(pairs->second);
+    made->distances = std::move(pairs->distance);
+    *lists = made.release();
+    return kDone;
+  });
+}
+
+int bihive_surfaces(const bihive_tree* tree, const bihive_rays* rays, const double* t, const int64_t* spheres,
+                    int threads, double* positions, double* normals, double* exits) {
+  return guarded([&] {
+    if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
+    if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return failed("the hits are NULL");
+    const PeriodicImages* const images = tree->images ? &*tree->images : nullptr;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::atomic<bool> are_others{false};
+    const auto put = [](Vec3d vector, double* to) {
+      for (int axis = 0; axis < 3; ++axis) to[axis] = vector[axis];
+    };
+    const int done = for_parts(*tree, *rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t) {
+      for (std::int64_t i = 0; i < part.count; ++i) {
+        const std::int64_t at = first + i;
+        std::optional<HitSurface> surface;
+        if (spheres[at] >= 0) {
+          surface = surface_of_hit(tree->spheres, images, part.at(i), t[at], spheres[at]);
+          if (!surface) are_others = true;
+        }
+        if (positions != nullptr) put(surface ? surface->position : Vec3d{nan, nan, nan}, positions + 3 * at);
+        if (normals != nullptr) put(surface ? surface->normal : Vec3d{nan, nan, nan}, normals + 3 * at);
+        if (exits != nullptr) exits[at] = surface ? surface->t_exit : nan;
+      }
+    });
+    if (done != kDone) return done;
+    return are_others ? failed("a hit is not that of its ray: hand in the rays that bihive_closest had") : kDone;
   });
 }
 

@@ -160,6 +160,11 @@ static void test_cells(void) {
   EXPECT_ERROR(bihive_within(tree, place, 1, &infinite, BIHIVE_CENTRE, NULL, 0, &lists), "million images");
   EXPECT(bihive_closest(tree, &rays, 0, distances, spheres) == 0);
   EXPECT(spheres[0] == 0 && fabs(distances[0] - 8.9) < 1e-6);
+  double at[3], normal[3], exit_at;
+  EXPECT(bihive_surfaces(tree, &rays, distances, spheres, 0, at, normal, &exit_at) == 0);
+  EXPECT(fabs(at[0] - 7.9) < 1e-6 && at[1] == 0 && normal[0] == -1 && fabs(exit_at - 9.1) < 1e-6);
+  distances[1] = nextafter(distances[0], 0);
+  EXPECT_ERROR(bihive_surfaces(tree, &rays, distances + 1, spheres, 0, at, NULL, NULL), "not that of its ray");
   EXPECT(bihive_occluded(tree, &rays, 0, hidden) == 0 && hidden[0] == 1);
   EXPECT_ERROR(bihive_all_hits(tree, &rays, 0, &lists), "ray 0 passes more than 16384 periodic cells");
   rays.t_max = &ray_end;
@@ -207,6 +212,24 @@ static void test_points(const bihive_tree* tree) {
     EXPECT(begin[1] == 1 && begin[2] == 3 && begin[3] == 4);
   }
   bihive_lists_free(lists);
+
+  int64_t counts[3];
+  EXPECT(bihive_count_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, 0, counts) == 0);
+  EXPECT(counts[0] == 1 && counts[1] == 2 && counts[2] == 1);
+  EXPECT(bihive_count_within(tree, points, 3, NULL, BIHIVE_SURFACE, mask, 0, counts) == 0);
+  EXPECT(counts[0] == 1 && counts[1] == 0 && counts[2] == 0);
+  EXPECT_ERROR(bihive_count_within(tree, points, 3, NULL, BIHIVE_SURFACE, NULL, 0, NULL), "no place for the counts");
+
+  EXPECT(bihive_pairs(tree, 2, BIHIVE_SURFACE, NULL, 0, &lists) == 0);
+  if (lists != NULL) {
+    const int64_t* begin = bihive_lists_begin(lists);
+    const int64_t* others = bihive_lists_spheres(lists);
+    EXPECT(begin[0] == 0 && begin[1] == 1 && begin[2] == 3 && begin[4] == 3);
+    EXPECT(others[0] == 1 && others[1] == 2 && others[2] == 3);
+    EXPECT(bihive_lists_distances(lists)[0] == 2 && bihive_lists_distances(lists)[2] == -1.5);
+  }
+  bihive_lists_free(lists);
+  EXPECT_ERROR(bihive_pairs(tree, NAN, BIHIVE_CENTRE, NULL, 0, &lists), "must be a number");
 
   EXPECT_ERROR(bihive_nearest(tree, bad, 1, 1, 1, BIHIVE_SURFACE, NULL, 0, distances, spheres),
                "point 0: y must be finite");

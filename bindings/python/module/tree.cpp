@@ -18,8 +18,8 @@
 
 #include "arrays.h"
 #include "bihive/base/parallel.h"
-#include "bihive/geometry/hit_surface.h"
 #include "bihive/render/memory.h"
+#include "bihive/wide/surface_of_hit.h"
 #include "errors.h"
 #include "waiting.h"
 
@@ -260,7 +260,7 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
                    const py::array_t<std::int64_t, py::array::c_style>& id, bool see_images, bool with_derivatives) {
   const SphereSet& set = tree.spheres->file.spheres;
   const RayArrays rays = rays_from(origin, direction, {}, {}, {}, {});
-  const std::int64_t hits = t.size(), most_spheres = set.total_size();
+  const std::int64_t hits = t.size();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto rows = [&](std::vector<py::ssize_t> shape) {
     shape.insert(shape.begin(), static_cast<py::ssize_t>(hits));
@@ -286,6 +286,7 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
     to_n_centre = normal_by_centre.mutable_data(), to_n_radius = normal_by_radius.mutable_data();
   }
   std::atomic<bool> have_changed{false};
+  const PeriodicImages* const images = see_images ? &*tree.images : nullptr;
   const double* const all_t = t.data();
   const std::int64_t *const all_ids = id.data(), *const all_rays = ray ? ray->data() : nullptr;
   {
@@ -295,7 +296,7 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
       for (std::int64_t i = chunk * kFewestRays; i < std::min(hits, (chunk + 1) * kFewestRays); ++i) {
         if (all_ids[i] < 0) continue;
         const std::int64_t of = all_rays != nullptr ? all_rays[i] : i;
-        if (all_ids[i] >= most_spheres || of < 0 || of >= rays.count) {
+        if (of < 0 || of >= rays.count) {
           have_changed = true;
           return;
         }
@@ -307,21 +308,16 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
           local.origin[a] = static_cast<float>(rays.origin[axis].at(at) - set.origin()[a]);
           local.direction[a] = static_cast<float>(rays.direction[axis].at(at));
         }
-        const ScaledRay scaled(local, set.scale());
-        std::optional<Vec3d> centre = set.stored_centre(all_ids[i]);
-        if (see_images) centre = tree.images->image_of_hit(scaled, all_t[i], all_ids[i]);
-        const double radius = set.stored_radius(all_ids[i]);
-        const std::optional<HitSurface> found = centre ? hit_surface(scaled, all_t[i], *centre, radius) : std::nullopt;
+        const std::optional<HitSurface> found = surface_of_hit(set, images, local, all_t[i], all_ids[i]);
         if (!found) {
           have_changed = true;
           return;
         }
-        put(set.in_world(found->position * set.inverse_scale()), to_position + 3 * i);
+        put(found->position, to_position + 3 * i);
         put(found->normal, to_normal + 3 * i);
         to_exit[i] = found->t_exit;
         if (!with_derivatives) continue;
-        const HitDerivatives by =
-            hit_derivatives(to_double(local.direction), found->normal, radius * set.inverse_scale());
+        const HitDerivatives by = hit_derivatives(to_double(local.direction), found->normal, set.radius(all_ids[i]));
         put(by.t_by_centre, to_t_centre + 3 * i);
         to_t_radius[i] = by.t_by_radius;
         for (int row = 0; row < 3; ++row) put(by.normal_by_centre[row], to_n_centre + 9 * i + 3 * row);
