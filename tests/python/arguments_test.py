@@ -190,7 +190,7 @@ class Arguments(ProgramTest):
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
         self.assertEqual(methods, {"save", "moved", "with_columns"})
         methods = {name for name, one in vars(bh.Picture).items() if callable(one) and not name.startswith("_")}
-        self.assertEqual(methods, {"layer", "save", "detach"})
+        self.assertEqual(methods, {"layer", "save", "detach", "rays", "project", "unproject"})
         methods = {name for name, one in vars(bh.Tree).items() if callable(one) and not name.startswith("_")}
         self.assertEqual(methods, {"closest", "occluded", "all_hits", "nearest", "within", "contains", "overlaps", "count_within", "pairs", "update"})
 
@@ -241,6 +241,9 @@ class Arguments(ProgramTest):
     def test_pictures(self):
         picture = bh.render(self.spheres, **SMALL)
         self.try_all(picture.layer, {"name": "depth"})
+        self.try_all(picture.rays, {"x": 1.0, "y": 2.0})
+        self.try_all(picture.project, {"points": np.zeros((4, 3))})
+        self.try_all(picture.unproject, {"x": 1.0, "y": 2.0, "depth": 3.0})
         self.try_all(picture.save, {"path": self.path("a.png")})
         self.try_all(picture.save, {"path": self.path("a.exr")})
         for label, value in HOSTILE.items():

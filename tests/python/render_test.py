@@ -318,6 +318,46 @@ class Failures(ProgramTest):
         self.assertRegex(str(caught[0].message), "selects no sphere")
         self.assertEqual(caught[0].filename, __file__)
 
+    def test_the_rays_of_the_camera(self):
+        s = bh.read("demo")
+        tree = bh.Tree(s)
+        for options in ({}, {"camera": bh.Orthographic("iso", zoom=1.3)}, {"crop": (5, 7, 30, 20)}, {"fit": "resname 478"}):
+            picture = bh.render(s, size=SIZE, samples=1, **options)
+            origins, directions = picture.rays()
+            width, height = picture.size
+            self.assertEqual(origins.shape, (height, width, 3))
+            hits = tree.closest(origins, directions)
+            np.testing.assert_array_equal(hits.id, picture.layer("id"))
+            # Points of the surface are where the picture has them, at its depth.
+            seen = hits.id >= 0
+            where = picture.project(hits.positions()[seen])
+            rows, columns = np.nonzero(seen)
+            np.testing.assert_allclose(where[:, 0], columns + 0.5, atol=1e-3)
+            np.testing.assert_allclose(where[:, 1], rows + 0.5, atol=1e-3)
+            depth = picture.layer("depth")
+            np.testing.assert_allclose(where[:, 2], depth[seen], rtol=1e-5)
+            back = picture.unproject(columns + 0.5, rows + 0.5, depth[seen])
+            np.testing.assert_allclose(back, hits.positions()[seen], atol=1e-3)
+        picture = bh.render(s, size=SIZE, samples=1)
+        self.assertEqual(picture.rays(1.5, [2, 3])[0].shape, (2, 3))
+        eye = np.array(picture.camera["eye"])
+        behind = picture.project(2 * eye - s.xyz.mean(axis=0))
+        self.assertTrue(np.isnan(behind[:2]).all() and behind[2] < 0)
+        # Far from 0 as well.
+        far = bh.Spheres(s.xyz + [5e5, 5.4e6, 0], radius=s.radius)
+        seen = bh.render(far, size=SIZE, samples=1)
+        np.testing.assert_array_equal(bh.Tree(far).closest(*seen.rays()).id, seen.layer("id"))
+        for call, argument in [
+            (lambda: picture.rays(1), "y"),
+            (lambda: picture.rays([1, 2], [1, 2, 3]), "y"),
+            (lambda: picture.project([1, 2]), "points"),
+            (lambda: picture.unproject([1, 2], 3, [1, 2, 3]), "depth"),
+            (lambda: bh.render(s, size=SIZE, samples=1, stereo="side").rays(), "rays"),
+            (lambda: pickle.loads(pickle.dumps(picture)).rays(), "rays"),
+        ]:
+            with self.assertRaisesRegex(bh.UsageError, argument + ": "):
+                call()
+
     def test_masks_and_positions_as_selections(self):
         s = bh.read("demo")
         water = bh.select(s, "water")

@@ -116,7 +116,8 @@ class Threads(ProgramTest):
 
     def test_picture(self):
         picture = bh.render(spheres(), **SMALL)
-        arguments = {"layer": ("normal",), "core.layer": ("id",), "__getitem__": ()}
+        arguments = {"layer": ("normal",), "core.layer": ("id",), "__getitem__": (), "project": (np.eye(3),), "unproject": (1, 2, 3),
+                     "core.camera_rays": (np.ones(2), np.ones(2)), "core.camera_places": (np.eye(3),)}
         calls = calls_of(picture, self.folder, arguments, left_out={"save", "detach", "core.save", "core.save_exr", "core.save_tiff", "core.detach"})
         calls["save"] = lambda: picture.save(self.path_of_thread("png"))
         calls["save_tiff"] = lambda: picture.save(self.path_of_thread("tif"))

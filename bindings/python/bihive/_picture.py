@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
 from . import _bihive
+from ._arrays import numbers, vectors
 from ._checks import boolean, path_of, text_of
 from ._errors import bad_argument, found, writing
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 __all__ = ["Picture"]
 
@@ -66,6 +70,62 @@ class Picture:
         curve. "attribute:NAME": float32, an attribute of the sphere, NaN for nothing.
         """
         return self._core.layer(text_of("name", name, "the name of a layer"))
+
+    def rays(
+        self, x: Optional[npt.ArrayLike] = None, y: Optional[npt.ArrayLike] = None
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The camera's rays through these positions: origins and directions, float64 (..., 3), in world units.
+
+        x, y: pixels from the left and from the top, of any shapes that broadcast; (0.5, 0.5) is the centre of the first pixel.
+            Left out: the centres of all pixels, (height, width, 3). A lens is left out.
+
+        >>> from bihive import Tree, read, render
+        >>> picture = render("demo", size=(64, 48), samples=1)
+        >>> bool((Tree(read("demo")).closest(*picture.rays()).id == picture.layer("id")).all())
+        True
+        """
+        if (x is None) != (y is None):
+            raise bad_argument("x" if x is None else "y", "is missing", "give both, or neither for all pixels")
+        if x is None or y is None:
+            width, height = self.size
+            x, y = np.arange(width) + 0.5, np.arange(height)[:, None] + 0.5
+        origins, directions, _ = self._rays(x, y)
+        return origins, directions
+
+    def project(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Where points of the world are in the picture: float64 (..., 3), x and y in pixels as in rays(), and the distance along
+        the view. x and y are NaN for what lies behind an eye.
+
+        points: shape (..., 3), world units.
+        """
+        where = vectors("points", points)
+        made = self._core.camera_places(np.ascontiguousarray(where.reshape(-1, 3), dtype=np.float64))
+        placed: npt.NDArray[np.float64] = made.reshape(where.shape)
+        return placed
+
+    def unproject(self, x: npt.ArrayLike, y: npt.ArrayLike, depth: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """The inverse of project(): points of the world, float64 (..., 3).
+
+        depth: distances along the view in world units, as layer("depth") has them; infinity gives no finite point.
+        """
+        origins, directions, forward = self._rays(x, y)
+        along = (directions * forward).sum(axis=-1)
+        try:
+            t = numbers("depth", depth) / along
+            made: npt.NDArray[np.float64] = origins + t[..., None] * directions
+        except ValueError:
+            raise bad_argument("depth", f"has shape {np.shape(depth)}, which does not fit x and y, {along.shape}") from None
+        return made
+
+    def _rays(self, x: Any, y: Any) -> tuple[Any, Any, Any]:
+        try:
+            at = np.broadcast_arrays(numbers("x", x), numbers("y", y))
+        except ValueError:
+            raise bad_argument("y", f"has shape {np.shape(y)}, which does not fit x, {np.shape(x)}") from None
+        rows = [np.ascontiguousarray(one.reshape(-1), dtype=np.float64) for one in at]
+        origins, directions, forward = self._core.camera_rays(*rows)
+        shape = (*at[0].shape, 3)
+        return origins.reshape(shape), directions.reshape(shape), np.array(forward)
 
     def save(self, path: Union[str, os.PathLike[str]], *, layers: Optional[str] = None, metadata: bool = True) -> None:
         """Writes a PNG, or TIFF (.tif) or OpenEXR (.exr) where the path ends so, whole or not at all.

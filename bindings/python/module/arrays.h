@@ -12,6 +12,10 @@
 
 namespace bihive::python {
 
+/// Rows one after the other; others are copied.
+template <class T>
+using Array = pybind11::array_t<T, pybind11::array::c_style | pybind11::array::forcecast>;
+
 /// One column of an array of float32 or float64 in this machine's byte order, any step in bytes between its numbers
 /// (0: one number for all). The array must outlive it.
 NumbersView column_of(const pybind11::array& array, pybind11::ssize_t column);
@@ -29,7 +33,7 @@ pybind11::array_t<T> array_from(std::vector<T> values, std::vector<pybind11::ssi
 
 /// The entries of a C-contiguous array.
 template <class T>
-std::vector<T> vector_from(const pybind11::array_t<T, pybind11::array::c_style | pybind11::array::forcecast>& array) {
+std::vector<T> vector_from(const Array<T>& array) {
   return std::vector<T>(array.data(), array.data() + array.size());
 }
 

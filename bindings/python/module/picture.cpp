@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -230,11 +231,76 @@ py::array pixels_of(const py::object& self) {
   return made;
 }
 
+// What a picture was drawn of. `what` needs it.
+std::shared_ptr<const Light> light_of(const Picture& picture, const std::string& what) {
+  if (picture.light != nullptr) return picture.light;
+  fail_usage(what + ": this picture has its pixels alone, because it was unpickled or detached", "render it again");
+}
+
+// The camera of a picture, for positions counted from the corner of what was drawn.
+struct PictureCamera {
+  std::shared_ptr<const Light> light;
+  const SphereSet& spheres;
+  Camera camera;  // local
+  int width, height;
+  double left, top;
+
+  static PictureCamera of(const Picture& picture, const std::string& what) {
+    std::shared_ptr<const Light> light = light_of(picture, what);
+    const RenderSettings& settings = light->drawing->settings;
+    if (settings.stereo.form != StereoForm::none)
+      fail_usage(what + ": a stereo picture has two cameras", "render one view");
+    const Scene& scene = light->drawing->input.scene;
+    const Tile drawn = drawn_pixels(settings);
+    return {std::move(light),   scene.spheres,    local_camera(scene), settings.width_px,
+            settings.height_px, double(drawn.x0), double(drawn.y0)};
+  }
+};
+
+// Origins and directions, (n, 3) each, of the rays through these positions; and the direction of view.
+py::tuple camera_rays(const Picture& picture, const Array<double>& x, const Array<double>& y) {
+  const PictureCamera camera = PictureCamera::of(picture, "rays");
+  const PixelRays rays(camera.camera, camera.width, camera.height);
+  const py::ssize_t count = x.size();
+  Array<double> origin({count, py::ssize_t{3}}), direction({count, py::ssize_t{3}});
+  const double *const at_x = x.data(), *const at_y = y.data();
+  double *to_origin = origin.mutable_data(), *to_direction = direction.mutable_data();
+  {
+    const py::gil_scoped_release unlocked;
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const Ray ray = rays.at(at_x[i] + camera.left, at_y[i] + camera.top);
+      const Vec3d from = camera.spheres.in_world(to_double(ray.origin)), along = to_double(ray.direction);
+      for (int axis = 0; axis < 3; ++axis) *to_origin++ = from[axis], *to_direction++ = along[axis];
+    }
+  }
+  const Vec3d forward = rays.forward();
+  return py::make_tuple(origin, direction, py::make_tuple(forward.x, forward.y, forward.z));
+}
+
+// Of points (n, 3): x, y and the distance along the view, (n, 3). NaN for x and y of what lies behind an eye.
+Array<double> camera_places(const Picture& picture, const Array<double>& points) {
+  const PictureCamera camera = PictureCamera::of(picture, "project");
+  const PixelPlaces places(camera.camera, camera.width, camera.height);
+  const py::ssize_t count = points.shape(0);
+  Array<double> made({count, py::ssize_t{3}});
+  const double* from = points.data();
+  double* to = made.mutable_data();
+  const py::gil_scoped_release unlocked;
+  const bool has_eye = camera.camera.projection == Projection::perspective;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (py::ssize_t i = 0; i < count; ++i, from += 3) {
+    const Vec3d seen = places.from_eye(camera.spheres.to_local({from[0], from[1], from[2]}));
+    const bool is_behind = has_eye && !(seen.z > 0);
+    *to++ = is_behind ? nan : places.x_px(seen) - camera.left;
+    *to++ = is_behind ? nan : places.y_px(seen) - camera.top;
+    *to++ = seen.z;
+  }
+  return made;
+}
+
 // `name` is known to layers_from_text(), and is one layer. Ids are 64-bit, -1 for nothing and -2 for the plane.
 py::object layer_of(const Picture& picture, const std::string& name) {
-  const std::shared_ptr<const Light> light = picture.light;
-  if (light == nullptr)
-    fail_usage("layer: this picture has its pixels alone, because it was unpickled or detached", "render it again");
+  const std::shared_ptr<const Light> light = light_of(picture, "layer");
   const Drawing& drawing = *light->drawing;
   const Result<std::vector<Layer>> known = layers_from_text(name);
   if (!known) fail_usage("name: " + known.error().message, known.error().hint);
@@ -362,6 +428,8 @@ void bind_pictures(py::module_& module) {
       .def_property_readonly("has_scene", [](const Picture& p) { return p.light != nullptr; })
       .def_property_readonly("hash", [](const Picture& p) { return picture_hash(p.pixels); })
       .def("layer", layer_of)
+      .def("camera_rays", camera_rays)
+      .def("camera_places", camera_places)
       .def("png", [](const Picture& p) { return py::bytes(png_bytes(p)); })
       .def("save",
            [](const Picture& p, const std::string& path, bool metadata) {

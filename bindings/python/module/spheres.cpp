@@ -40,9 +40,6 @@ namespace py = pybind11;
 namespace bihive::python {
 namespace {
 
-template <class T>
-using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
-
 NamedTexts texts_from(const std::string& name, const std::vector<std::string>& values) {
   TextCollector texts;
   texts.reserve(values.size());
