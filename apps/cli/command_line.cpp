@@ -258,6 +258,16 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
   add_options_by_theme(command, picture, {"frame"});
 }
 
+// The options of window and page.
+void add_options_to_show(CLI::App& command, ViewOptions& options, std::vector<std::string_view> without = {}) {
+  static const RequestOption<PictureRequest> samples = samples_option(kMostSamples);
+  add_option_of<PictureRequest>(command, samples, options);
+  without.insert(without.end(), {"size", "engine", "samples", "trajectory"});
+  for (const OptionTheme theme : {OptionTheme::style, OptionTheme::picture, OptionTheme::camera, OptionTheme::engine,
+                                  OptionTheme::reading, OptionTheme::spheres, OptionTheme::labels})
+    add_picture_options(command, theme, options, /*of_window=*/true, without);
+}
+
 void add_view(CLI::App& app, ViewOptions& options, Request& request) {
   CLI::App& command =
       add_command(app, "view", "Look at it in a window: turn it, switch views, engines and trees",
@@ -266,11 +276,7 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
   add_input<PictureRequest>(command, options);
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
   add_choice(command, "--engine", options.window_engine, kViewerEngines, "The engine (cpu)");
-  static const RequestOption<PictureRequest> samples = samples_option(kMostSamples);
-  add_option_of<PictureRequest>(command, samples, options);
-  for (const OptionTheme theme : {OptionTheme::style, OptionTheme::picture, OptionTheme::camera, OptionTheme::engine,
-                                  OptionTheme::reading, OptionTheme::spheres, OptionTheme::labels})
-    add_picture_options(command, theme, options, /*of_window=*/true, {"size", "engine", "samples", "trajectory"});
+  add_options_to_show(command, options);
   command.add_option("--screenshot", options.screenshot, "Write the settled window into a PNG, and end")
       ->type_name("FILE");
 }
@@ -453,7 +459,7 @@ void add_web(CLI::App& app, WebOptions& options, Request& request) {
   CLI::App& command =
       add_command(app, "web", "Serve the page that shows spheres in a browser", "bihive web molecule.pdb",
                   "bihive web scenario2 --port 8080 --no-browser", options, request);
-  command.add_option("INPUT", options.input, "A file or a built-in name to open (demo)")->type_name("");
+  command.add_option("INPUT", options.shown.input.input, "A file or a built-in name to open (demo)")->type_name("");
   add_integer(command, "--port", options.port, 0, kLargestPort,
               "Port (8017, or the next one that is free; 0: any that is free)");
   add_value(command, "--bind", options.bind, "ADDRESS",
@@ -463,6 +469,9 @@ void add_web(CLI::App& app, WebOptions& options, Request& request) {
   command.add_flag_callback(
       "--no-browser", [&options] { options.browser = false; }, "Open no browser");
   command.add_flag("--json", options.json, "Print the addresses as one JSON object in a line");
+  begin_theme(command, "What the page shows first");
+  // The page's scenarios have one seed.
+  add_options_to_show(command, options.shown, {"seed"});
 }
 
 std::string version_text() {

@@ -11,15 +11,31 @@
 #include "bihive/base/parallel.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/scene_request.h"
 #include "bihive/simd/target.h"
 #include "command_line.h"
 #include "film/film_sink.h"
 #include "support/interrupt.h"
+#include "support/outputs.h"
+#include "support/request_files.h"
 #include "support/sibling_program.h"
 #include "words/read_program_words.h"
 
 namespace bihive::cli {
 namespace {
+
+// The request of a command that draws nothing: of a picture's request in a scene file it takes the input.
+template <class Options>
+Options with_input(const Options& asked) {
+  Options options = asked;
+  // The scene file is an input as well.
+  if constexpr (requires { outputs_of(options); }) check_outputs(outputs_of(options), inputs_of(options));
+  if constexpr (requires { options.tree; })
+    take_saved_input(options.input, &options.tree);
+  else
+    take_saved_input(options.input);
+  return options;
+}
 
 // One call for each kind of request.
 struct Run {
@@ -38,14 +54,14 @@ struct Run {
   int operator()(const VerifyOptions& options) const { return run_verify(options) ? kSuccess : kBadInput; }
   int operator()(const FilmOptions& options) const { return run_film(options), kSuccess; }
   int operator()(const ViewOptions& options) const { run_view(options); }
-  int operator()(const StatsOptions& options) const { return run_stats(options), kSuccess; }
-  int operator()(const TraceOptions& options) const { return run_trace(options), kSuccess; }
+  int operator()(const StatsOptions& options) const { return run_stats(with_input(options)), kSuccess; }
+  int operator()(const TraceOptions& options) const { return run_trace(with_input(options)), kSuccess; }
   int operator()(const SceneOptions& options) const { return run_scene(options), kSuccess; }
   int operator()(const SceneSaveOptions& options) const { return run_scene_save(options), kSuccess; }
-  int operator()(const InfoOptions& options) const { return run_info(options), kSuccess; }
+  int operator()(const InfoOptions& options) const { return run_info(with_input(options)), kSuccess; }
   int operator()(const StylesOptions& options) const { return run_styles(options), kSuccess; }
-  int operator()(const SelectOptions& options) const { return run_select(options), kSuccess; }
-  int operator()(const ConvertOptions& options) const { return run_convert(options), kSuccess; }
+  int operator()(const SelectOptions& options) const { return run_select(with_input(options)), kSuccess; }
+  int operator()(const ConvertOptions& options) const { return run_convert(with_input(options)), kSuccess; }
   int operator()(const ThesisOptions& options) const {
     if (!options.page.empty()) return write_phone_page(options.page), kSuccess;
     become_program("bihive-thesis", arguments, "build it: cmake --build build --target bihive-thesis");

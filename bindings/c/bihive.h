@@ -160,6 +160,11 @@ BIHIVE_API int bihive_scene_set(bihive_scene* scene, const char* name, const cha
  * 1 to 65535. `samples` per pixel: 1 to 4096, 0: the scene's. */
 BIHIVE_API int bihive_render(bihive_scene* scene, int width, int height, int samples, int threads, uint8_t* rgba);
 
+/* A sentence for a methods section about the scene's last picture, and an entry for BibTeX, as `bihive render
+ * --methods` prints them: with the SHA-256 of the bytes that the scene was made from. NULL before the first picture. It
+ * belongs to the scene, until its next picture or bihive_scene_free(). */
+BIHIVE_API const char* bihive_scene_methods(const bihive_scene* scene);
+
 #ifdef __cplusplus
 }
 #endif

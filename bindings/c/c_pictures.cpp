@@ -9,11 +9,15 @@
 #include <vector>
 
 #include "bihive.h"
+#include "bihive/base/sha256.h"
+#include "bihive/base/version.h"
 #include "bihive/image/png_pixels.h"
 #include "bihive/image/transfer.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/methods_text.h"
 #include "bihive/job/picture_options.h"
+#include "bihive/job/picture_record.h"
 #include "bihive/job/prepare_picture.h"
 #include "bihive/render/finished_pixels.h"
 #include "bihive/render/memory.h"
@@ -32,6 +36,9 @@ struct bihive_scene {
   bihive::Scene as_read;                 // without the spheres: the start of each picture
   bihive::Overrides picture;
   std::vector<std::pair<std::string, std::string>> settings;  // ids and values of the other options, in their order
+  bihive::PictureRecord source;                               // its bytes, and the program
+  std::string style;                                          // empty: none was named
+  std::string methods;                                        // of the last picture
   std::mutex in_use;                                          // each picture places the camera and the lights again
 };
 
@@ -61,8 +68,12 @@ void put_light(const Scene& from, Scene& to) {
   to.picture = from.picture;
 }
 
-int take_scene(LoadedScene loaded, bihive_scene** scene) {
+int take_scene(LoadedScene loaded, const char* style, std::vector<RecordedFile> files, bihive_scene** scene) {
   auto made = std::make_unique<bihive_scene>();
+  made->source.version = version();
+  made->source.commit = commit();
+  made->source.files = std::move(files);
+  if (style != nullptr) made->style = style;
   made->loaded = std::move(loaded);
   put_light(made->loaded.scene, made->as_read);
   auto tracer = Tracer::build(made->loaded.scene, Engine::automatic);
@@ -169,7 +180,7 @@ int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb,
           colour[i][axis] =
               static_cast<float>(linear_from_srgb(double(rgb[3 * i + static_cast<std::size_t>(axis)]) / 255));
     }
-    return take_scene(scene_of_spheres(std::move(file), "arrays", &*look), scene);
+    return take_scene(scene_of_spheres(std::move(file), "arrays", &*look), style, {}, scene);
   });
 }
 
@@ -182,7 +193,10 @@ int bihive_scene_from_bytes(const char* bytes, size_t size, const char* name, co
     if (!look) return failed(look.error());
     auto loaded = load_scene(std::string_view(bytes, size), name, {}, LooksOfFile::apply, &*look);
     if (!loaded) return failed(loaded.error());
-    return take_scene(std::move(*loaded), scene);
+    Sha256 digest;
+    digest.add(std::string_view(bytes, size));
+    RecordedFile source{kInputFile, without_folder(name), digest.digits()};
+    return take_scene(std::move(*loaded), style, {std::move(source)}, scene);
   });
 }
 
@@ -254,6 +268,13 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     const Rendered rendered = value_or_fail(render(input.scene, own ? *own : *scene->tracer, settings));
     const PngPixels pixels = finished_pixels(rendered.film, input.scene, settings, 8);
     write_rgba(pixels, rgba);
+    request.style.name = scene->style;
+    scene->methods =
+        methods_text(request, settings_json(request, settings, input.scene, {}), input.scene, scene->source);
     return kDone;
   });
+}
+
+const char* bihive_scene_methods(const bihive_scene* scene) {
+  return scene == nullptr || scene->methods.empty() ? nullptr : scene->methods.c_str();
 }

@@ -275,8 +275,12 @@ static void test_pictures(void) {
   const char* xyz = "2\ntwo\nO 0 0 0\nC 3 0 0\n";
   bihive_scene* scene = NULL;
 
+  EXPECT(bihive_scene_methods(NULL) == NULL);
   EXPECT(bihive_scene_new(places, radii, colours, 2, "plain", &scene) == 0);
+  EXPECT(bihive_scene_methods(scene) == NULL);
   EXPECT(bihive_render(scene, kWidth, kHeight, 1, 1, one) == 0);
+  EXPECT(strstr(bihive_scene_methods(scene), "2 spheres, style plain, perspective") != NULL);
+  EXPECT(strstr(bihive_scene_methods(scene), "@misc{bihive,") != NULL);
   EXPECT(bihive_render(scene, kWidth, kHeight, 1, 2, other) == 0);
   EXPECT(memcmp(one, other, sizeof one) == 0);
   EXPECT(pixel(one, 24, 32)[0] > pixel(one, 24, 32)[2] + 50); /* the red one is left in front */
@@ -338,6 +342,7 @@ static void test_pictures(void) {
 
   EXPECT(bihive_scene_from_bytes(xyz, strlen(xyz), "two.xyz", NULL, &scene) == 0);
   EXPECT(bihive_render(scene, kWidth, kHeight, 0, 0, one) == 0);
+  EXPECT(strstr(bihive_scene_methods(scene), " of two.xyz (SHA-256 ") != NULL);
   bihive_scene_free(scene);
   EXPECT(bihive_scene_from_bytes(json, strlen(json), "one.json", NULL, &scene) == 0);
   if (scene != NULL) EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, one) == 0);

@@ -165,6 +165,18 @@ class Verify(AgainTest):
         self.write("n.xyz", MOLECULE)
         self.succeed("verify", "a.png", "n.xyz")
 
+    def test_the_bundled_molecule_is_its_file(self):
+        self.draw("demo", *SMALL)
+        molecule = os.path.join(os.environ["BIHIVE_SOURCE"], "data/1hpv.pdb")
+        self.assertIn("the same bits", self.succeed("verify", "a.png", molecule))
+        shutil.copy(molecule, self.path("1hpv.pdb"))
+        self.draw("1hpv.pdb", *SMALL, name="b.png")
+        self.succeed("verify", "b.png", "demo")
+        self.write("m.xyz", MOLECULE)
+        done = self.run_bihive("verify", "a.png", "m.xyz")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the input is not the built-in scene demo", done.stdout)
+
     def test_a_folder_of_figures(self):
         os.mkdir(self.path("f"))
         for number, style in enumerate(["flat", "xray"]):

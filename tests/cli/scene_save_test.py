@@ -80,6 +80,40 @@ class SceneSave(ProgramTest):
                      "--select", "chain B", "--hide", "-o", "b.png")
         self.assertEqual(self.read("a.png"), self.read("b.png"))
 
+    def test_every_command_takes_the_input(self):
+        os.mkdir(self.path("in"))
+        self.write("in/m.xyz", MOLECULE)
+        self.succeed("scene", "save", "s.json", "in/m.xyz", *SMALL, "--radius", "0.5", "--max-prims", "1", "--select", "element O", "--hide")
+        given = ["in/m.xyz", "--radius", "0.5"]
+        for words in (["info"], ["info", "--attributes"], ["info", "--distance", "0,1"], ["select", "element O"]):
+            name, *rest = words
+            tree = ["--max-prims", "1"] if words == ["info"] else []
+            self.assertEqual(self.succeed(name, "s.json", *rest), self.succeed(name, *given, *tree, *rest), words)
+        of_file, of_input = (json.loads(self.succeed("stats", *words, "--json")) for words in (["s.json"], [*given, "--max-prims", "1"]))
+        self.assertEqual(of_file["max_prims"], of_input["max_prims"])
+        self.succeed("convert", "s.json", "-o", "a.csv")
+        self.succeed("convert", *given, "-o", "b.csv")
+        self.assertEqual(self.read("a.csv"), self.read("b.csv"))
+        # Options of the command line replace those of the file.
+        self.succeed("convert", "s.json", "--radius", "2", "-o", "a.csv")
+        self.assertNotEqual(self.read("a.csv"), self.read("b.csv"))
+        before = self.read("s.json")
+        self.assertIn("s.json", self.fail_input("convert", "s.json", "-o", "s.json"))
+        self.assertEqual(self.read("s.json"), before)
+
+    def test_films(self):
+        self.write("m.xyz", MOLECULE + MOLECULE.replace("1.2", "2.4"))
+        options = [*SMALL, "--style", "flat", "--select", "element O", "--colour", "red"]
+        self.succeed("scene", "save", "s.json", "m.xyz", "--frame", "1", *options)
+        self.succeed("film", "s.json", "-o", "a.y4m", "--samples", "1")
+        self.succeed("film", "m.xyz", "-o", "b.y4m", *options, "--samples", "1")
+        self.assertEqual(self.read("a.y4m"), self.read("b.y4m"))
+        # A picture of the film is drawn from its description.
+        self.succeed("film", "s.json", "-o", "p%d.png", "--samples", "1")
+        film = next(name for name in os.listdir(self.folder) if name.startswith("p") and name.endswith(".json"))
+        self.succeed("render", "m.xyz", "--film", film, "--picture", "1", "-o", "one.png")
+        self.assertEqual(self.read("one.png"), self.read("p1.png"))
+
     def test_scenes_of_scenes_and_faults(self):
         self.succeed("scene", "save", "s.json", "demo", *SMALL)
         self.write("t.json", json.dumps({"bihive_scene": 2, "input": "s.json", "options": [["ao"]]}))
@@ -100,7 +134,6 @@ class SceneSave(ProgramTest):
             done = self.run_bihive("render", "t.json", "-o", "c.png")
             self.assertIn(done.returncode, (1, 2), document)
             self.assertIn(fault, done.stderr)
-        self.assertIn("draw the picture by bihive render", self.fail_input("info", "s.json"))
         self.assertIn(".json", self.fail_usage("scene", "save", "s.txt", "demo"))
         self.assertIn("--layers", self.fail_usage("scene", "save", "s.json", "demo", "--layers", "id"))
         self.assertIn("standard input", self.fail_usage("scene", "save", "s.json", "-"))

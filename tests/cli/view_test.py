@@ -60,6 +60,45 @@ class NoWindow(ProgramTest):
             self.assert_one_error_line(done.stderr)
             self.assertIn(f"the program {program} is not installed", done.stderr)
 
+    def request(self, *words):
+        """The request that a window would get, from a program that writes it down in its place."""
+        shutil.copy(BIHIVE, self.path("bihive"))
+        self.write("bihive-view", '#!/bin/sh\nprintf %s "$1" > request.json\n')
+        os.chmod(self.path("bihive-view"), 0o755)
+        done = subprocess.run([self.path("bihive"), "view", *words], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(self.read("request.json")), done.stderr
+
+    def test_cameras_are_those_of_pictures(self):
+        for camera in (
+            ["--fit", "resname 478"],
+            ["--zoom-to", "resname 478", "--view-from", "left"],
+            ["--look-at", "chain A", "--eye", "0,0,90"],
+            ["--view-from", "principal"],
+            ["--view-from", "best:resname 478"],
+            ["--turn", "30,20,5", "--zoom", "2", "--projection", "orthographic"],
+            ["--up", "0,0,1"],
+        ):
+            request, _ = self.request("demo", *camera)
+            done = self.succeed("render", "demo", *camera, "--size", "1280x800", "--samples", "1", "--no-shadows", "--style", "flat",
+                                "--json", "-o", "a.png")
+            drawn = json.loads(done)["settings"]["camera"]
+            shown = request["settings"]["camera"]
+            for key in ("eye", "look_at", "up"):
+                self.assertEqual(shown[key], drawn[key], camera)
+        self.assertIn("standard input", self.fail_usage("view", "-", "--turn", "30,20"))
+
+    def test_requests_of_scene_files(self):
+        self.write("two.xyz", "2\n\nC 0 0 0\nO 1.2 0 0\n")
+        self.succeed("scene", "save", "s.json", "two.xyz", "--radius", "0.5", "--style", "flat", "--size", "9x9", "--samples", "900",
+                     "--turn", "30,20", "--crop", "0,0,2,2", "--select", "element O", "--colour", "red")
+        request, said = self.request("s.json", "--fog", "0.5")
+        self.assertEqual((request["input"], request["reading"], request["look"]["style"]), ("two.xyz", {"radius": "0.5"}, "flat"))
+        self.assertEqual(request["look"]["rows"], [{"select": "element O", "action": "colour", "value": "red"}])
+        self.assertEqual((request["settings"]["fog"], request["settings"]["samples_per_pixel"]), (0.5, 64))
+        self.assertIn("--crop left out", said)
+        self.assertNotIn("size", request)
+
     def test_usage(self):
         self.assertIn("INPUT", self.fail_usage("view"))
         self.assertIn("--engine:", self.fail_usage("view", "demo", "--engine", "reference"))

@@ -200,6 +200,15 @@ class Source(WebTest):
             process.send_signal(signal.SIGINT)
             process.wait(timeout=PATIENCE_S)
 
+    def test_a_first_state(self):
+        self.write("two.xyz", "2\n\nC 0 0 0\nO 1.2 0 0\n")
+        self.run_bihive("scene", "save", "s.json", "two.xyz", "--radius", "0.5", "--style", "flat", "--fit", "element O", "--crop", "0,0,2,2")
+        self.start("s.json", "--fog", "0.5")
+        state = json.loads(self.ask("/start.json")[2])
+        self.assertEqual(state["source"], {"url": "file/two.xyz", "reading": {"radius": 0.5}})
+        self.assertEqual((state["look"]["style"], state["settings"]["fog"]), ("flat", 0.5))
+        self.assertAlmostEqual(state["settings"]["camera"]["look_at"][0], 1.2, 6)
+
     def test_a_file_of_any_name(self):
         os.mkdir(self.path("folder"))
         for name in ["a.xyz", "two words & 100% ?#+.xyz", "\u00e9\u6c34.pdb", '"><b>.html', "..odd", "a\\b.csv", "a\nb.xyz"]:

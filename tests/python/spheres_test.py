@@ -179,6 +179,11 @@ class Attributes(unittest.TestCase):
             named = bh.render(s, **more, **{name: "#804000"})
             for same in ((128 / 255, 64 / 255, 0), np.array([128, 64, 0], dtype=np.uint8)):
                 self.assertEqual(np.asarray(bh.render(s, **more, **{name: same})).tolist(), np.asarray(named).tolist(), name)
+        # A picture without a curve shows the same numbers.
+        bare = {**look, "transfer": "none", "background": (128 / 255, 64 / 255, 0)}
+        self.assertEqual(np.asarray(bh.render(s, **bare))[0, 0, :3].tolist(), [128, 64, 0])
+        scene = bh.render("scenario1", count=2, size=(8, 8), samples=1, background=(128 / 255, 64 / 255, 0))
+        self.assertEqual(np.asarray(scene)[0, 0, :3].tolist(), [128, 64, 0])
         named, numbers = (bh.Look(colour=one) for one in ("#804000", (128 / 255, 64 / 255, 0)))
         self.assertEqual(np.asarray(bh.render(s, looks=named, **look)).tolist(), np.asarray(bh.render(s, looks=numbers, **look)).tolist())
         self.assertEqual(bh.Look(colour=bh.linear((0.5, 0, 0))).words(), ["--select=all", "--colour=0.5,0.0,0.0"])

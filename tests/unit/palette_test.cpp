@@ -106,6 +106,11 @@ TEST(Palette, NothingKnownNothingColoured) {
 TEST(ColourText, BytesAreSharesWithoutTransfer) {
   EXPECT_EQ(*colour_from_text("#ff8000", Transfer::none), (Vec3d{1, 128 / 255.0, 0}));
   EXPECT_EQ(*colour_from_text("#FF8000", Transfer::none), (Vec3d{1, 128 / 255.0, 0}));
+  EXPECT_EQ(*colour_from_text("srgb(1,5e-1,0)", Transfer::none), (Vec3d{1, 0.5, 0}));
+  EXPECT_EQ(*colour_from_text("srgb(1,0.5,0)", Transfer::srgb), (Vec3d{1, linear_from_srgb(0.5), 0}));
+  for (const char* const wrong :
+       {"srgb(1,0.5)", "srgb(1,0.5,0,0)", "srgb(1,0.5,1.1)", "srgb(1,,0)", "srgb(1,0,0", "srgb()"})
+    EXPECT_FALSE(colour_from_text(wrong, Transfer::srgb)) << wrong;
   EXPECT_EQ(*colour_from_text("white", Transfer::none), (Vec3d{1, 1, 1}));
 }
 

@@ -214,7 +214,7 @@ struct ThesisOptions {
 };
 
 struct WebOptions {
-  std::string input;                 ///< a file or a built-in name; empty: the page's own input
+  ViewOptions shown;                 ///< its first state; without input: the page's own
   std::optional<std::int64_t> port;  ///< 0: any free port; unset: the first free port from 8017 on
   std::string bind = "127.0.0.1";    ///< numeric, in its usual spelling
   bool browser = true;

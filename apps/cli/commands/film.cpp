@@ -15,6 +15,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/prepare_picture.h"
+#include "bihive/job/scene_request.h"
 #include "bihive/render/memory.h"
 #include "commands/commands.h"
 #include "commands/draw_picture.h"
@@ -32,6 +33,7 @@
 #include "support/interrupt.h"
 #include "support/peak_memory.h"
 #include "support/request_files.h"
+#include "words/given_options.h"
 
 namespace bihive::cli {
 namespace {
@@ -319,6 +321,9 @@ FilmTimes make_pictures(const FilmOptions& options, FilmKind kind, const std::st
 FilmTimes run_film(const FilmOptions& asked) {
   const Timer timer;
   FilmOptions options = asked;
+  // A film shows frames of its own choice.
+  if (take_saved_request(options.picture, [](const std::string& id) { return id != "frame"; }))
+    options.words = picture_words(options.picture.given);
   const FilmKind kind = film_kind(options.picture.output);
   check_film_options(options, kind);
   // Missing programs are named before any work.

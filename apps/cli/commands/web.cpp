@@ -6,9 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "bihive/base/json_text.h"
+#include "bihive/io/reading_settings.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "commands/commands.h"
+#include "commands/shown_state.h"
 #include "server/addresses.h"
 #include "server/browser.h"
 #include "server/http_server.h"
@@ -24,12 +27,6 @@ using nlohmann::ordered_json;
 constexpr int kFirstPort = 8017;
 constexpr int kPortsTried = 20;
 
-bool is_built_in(const std::string& input) {
-  for (const char* name : {"demo", "scenario1", "scenario2", "scenario3", "four-spheres"})
-    if (input == name) return true;
-  return false;
-}
-
 PageFiles load_page() {
   const std::string folder = find_page();
   if (folder.empty())
@@ -40,22 +37,48 @@ PageFiles load_page() {
   return std::move(*page);
 }
 
+// How the input is read, in the page's words: radii are numbers (web/src/link.ts).
+ordered_json reading_of(const InputOptions& input) {
+  const ReadOptions& options = input.reading.options();
+  if (!options.trajectory.empty())
+    fail_usage("the page opens a trajectory that is dropped on it with its file", "or see bihive view");
+  ordered_json reading = *json_from_text<ordered_json>(reading_to_json(input.reading));
+  if (reading.contains("radius")) reading["radius"] = *options.radius;
+  if (reading.contains("radius_scale")) reading["radius_scale"] = options.radius_scale;
+  return reading;
+}
+
+// The first state of the page, where the user asks for one; else the page's own.
+void put_state(const ViewOptions& options, ordered_json& start) {
+  if (options.given.empty()) return;
+  // What a picture in a window of usual shape needs, fits others nearly.
+  constexpr PictureSize kSize{1280, 800};
+  if (options.input.seed)
+    fail_usage("the page's scenarios have the seed 1", "write the scene into a file by bihive scene");
+  if (options.input.count) start["source"]["count"] = *options.input.count;
+  if (const ordered_json reading = reading_of(options.input); !reading.empty()) start["source"]["reading"] = reading;
+  start["settings"] = settings_to_show(options, kSize, /*with_side=*/true);
+  start["look"] = look_to_show(options);
+}
+
 // Everything that can be fetched: the page, the file, and the page's first input (start.json).
 Site site_of(const WebOptions& options) {
   Site site;
   ordered_json start = ordered_json::object();
-  if (is_built_in(options.input)) {
-    start["source"]["built_in"] = options.input;
-  } else if (!options.input.empty()) {
-    if (options.input == kStandardStream)
+  const std::string& input = options.shown.input.input;
+  if (is_built_in_scene(input)) {
+    start["source"]["built_in"] = input;
+  } else if (!input.empty()) {
+    if (input == kStandardStream)
       fail_usage("the page fetches its file whenever it is opened, so the standard input cannot be one", "name a file");
-    value_or_fail(OpenFile::open(options.input));
-    const std::filesystem::path path = std::filesystem::absolute(options.input);
+    value_or_fail(OpenFile::open(input));
+    const std::filesystem::path path = std::filesystem::absolute(input);
     const std::string name = path.filename().string();
     site.file_path = path.string();
     site.file_url = "/file/" + name;
     start["source"]["url"] = "file/" + url_escaped(name);
   }
+  put_state(options.shown, start);
   site.page = load_page();
   site.page["/start.json"] = make_page_file("start.json", start.dump() + "\n");
 
@@ -86,10 +109,15 @@ std::vector<std::string> urls_of(const std::string& bound, int port) {
   return urls;
 }
 
+bool is_page_alone(const WebOptions& options) {
+  const std::string& input = options.shown.input.input;
+  return input.empty() || is_built_in_scene(input);
+}
+
 void say_where(const WebOptions& options, const std::vector<std::string>& urls, int port) {
   if (!is_loopback(options.bind))
     warn("everyone who can reach this machine can open the page" +
-         std::string(options.input.empty() || is_built_in(options.input) ? "" : " and fetch the file") +
+         std::string(is_page_alone(options) ? "" : " and fetch the file") +
          "; from other machines, without https, browsers give the page one thread only");
   if (options.json) {
     print(ordered_json{{"url", urls.front()}, {"port", port}, {"urls", urls}}.dump() + "\n");
@@ -102,7 +130,13 @@ void say_where(const WebOptions& options, const std::vector<std::string>& urls, 
 
 }  // namespace
 
-void run_web(const WebOptions& options) {
+void run_web(const WebOptions& asked) {
+  WebOptions options = asked;
+  take_request_to_show(options.shown);
+  if (!options.shown.given.empty()) {
+    if (options.shown.input.input.empty()) options.shown.input.input = "demo";
+    check_shown(options.shown);
+  }
   const Site site = site_of(options);
   HttpServer server([&site](const Question& question) { return answer(site, question); });
   const int port = value_or_fail(server.listen(options.bind, ports_to_try(options.port)));

@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/picture_options.h"
@@ -12,6 +11,7 @@
 #include "film/codec_words.h"
 #include "film/film_plan.h"
 #include "film/film_record.h"
+#include "words/given_options.h"
 
 namespace bihive::cli {
 namespace {
@@ -39,17 +39,6 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// The request as the command line of bihive film has it.
-std::vector<std::string> words_of(const std::vector<GivenSetting>& settings) {
-  std::vector<std::string> words;
-  for (const GivenSetting& one : settings) {
-    if (one.id == "threads" || one.id == "trajectory") continue;
-    const bool is_switch = picture_option(one.id)->value_name.empty();
-    words.push_back(option_of_setting(one.id) + (is_switch ? "" : "=" + one.value));
-  }
-  return words;
-}
-
 }  // namespace
 
 Verdict verify_film(const std::string& path, const std::string& input, const DrawFigure& draw) {
@@ -58,6 +47,7 @@ Verdict verify_film(const std::string& path, const std::string& input, const Dra
   try {
     const auto [record, plan] = read_film(path);
     verdict.drawn_by = version_with_commit(record.version, record.commit);
+    verdict.built_in = record.built_in;
     verdict.pictures = plan.positions();
     verdict.coded = !is_without_loss(path);
     if (static_cast<std::int64_t>(record.pictures_sha256.size()) != verdict.pictures)
@@ -93,7 +83,7 @@ FilmOptions film_again(const std::string& path, const RenderOptions& changes) {
   film.picture = changes;
   static_cast<PictureRequest&>(film.picture) =
       request_again(record, folder_of(path), changes.input.input, changes.given);
-  film.words = words_of(film.picture.given);
+  film.words = picture_words(film.picture.given);
   if (asked.frames.count == 1) film.pictures = asked.pictures;
   film.frames = FrameRange{asked.frames.first, asked.frames.frame(asked.frames.count - 1) + 1, asked.frames.step};
   film.order = asked.order;

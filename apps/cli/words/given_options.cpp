@@ -44,6 +44,16 @@ std::vector<std::string> picture_words(const CLI::App& command, int argc, const 
   return words;
 }
 
+std::vector<std::string> picture_words(const std::vector<GivenSetting>& settings) {
+  std::vector<std::string> words;
+  for (const GivenSetting& one : settings) {
+    if (one.id == "threads" || one.id == "trajectory") continue;
+    const bool is_switch = picture_option(one.id)->value_name.empty();
+    words.push_back(option_of_setting(one.id) + (is_switch ? "" : "=" + one.value));
+  }
+  return words;
+}
+
 bool names_file(const GivenOption& given) {
   if (const std::string id = setting_of_option(given.name); picture_option(id) != nullptr)
     return bihive::names_file(id, given.value);

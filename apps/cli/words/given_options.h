@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/picture_request.h"
+
 namespace CLI {  // NOLINT(readability-identifier-naming): a library's
 class App;
 class Option;
@@ -26,6 +28,9 @@ bool is_of_picture(const GivenOption& given);
 
 /// The arguments of a picture among those of `bihive film`.
 std::vector<std::string> picture_words(const CLI::App& command, int argc, const char* const* argv);
+
+/// The same of a picture's settings.
+std::vector<std::string> picture_words(const std::vector<GivenSetting>& settings);
 
 /// Whether the value of this option is a path.
 bool names_file(const GivenOption& given);

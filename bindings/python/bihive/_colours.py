@@ -64,6 +64,20 @@ def light_of_numbers(name: str, value: Any) -> Array:
     return _bihive.light_of_screen(_in_range(name, numbers(name, array)))
 
 
+def colour_word(name: str, value: Any) -> str:
+    """The numbers of one colour as the command line takes them: of what a screen shows under the picture's transfer
+    curve, or of linear light."""
+    if isinstance(value, Linear):
+        colour = value.light
+    else:
+        array = as_array(name, value)
+        colour = array / 255 if array.dtype == np.uint8 else _in_range(name, numbers(name, array))
+    if colour.shape != (3,):
+        raise bad_argument(name, f"expected a name, '#rrggbb', or three numbers, found shape {colour.shape}")
+    words = ",".join(repr(float(one)) for one in colour)
+    return words if isinstance(value, Linear) else f"srgb({words})"
+
+
 def light_of(name: str, value: Any, count: int) -> Array:
     """(n, 3) of linear light: of one colour for all, n texts, or numbers. `name`: the argument's."""
     if isinstance(value, str):

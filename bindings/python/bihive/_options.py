@@ -11,7 +11,7 @@ from typing import Any, Iterable, Mapping
 
 from . import _bihive
 from ._checks import boolean, path_of, several, whole_text
-from ._colours import light_of_numbers
+from ._colours import colour_word
 from ._errors import bad_argument, found
 
 # Options whose form differs from that of the command line.
@@ -74,17 +74,9 @@ def value_word(name: str, value: Any, between: str = ",") -> str:
     return number_word(name, value)
 
 
-def _one_light(name: str, value: Any) -> Any:
-    """The numbers of a colour as the command line takes them: linear light."""
-    light = light_of_numbers(name, value)
-    if light.shape != (3,):
-        raise bad_argument(name, f"expected a name, '#rrggbb', or three numbers, found shape {light.shape}")
-    return light
-
-
 def option(name: str, value: Any, between: str = ",") -> str:
     if not isinstance(value, str) and _OPTIONS.get(name, "").startswith("COLOUR"):
-        value = _one_light(name, value)
+        value = colour_word(name, value)
     text = value_word(name, value, between)
     if not text:
         raise bad_argument(name, "must not be empty", "leave it out")

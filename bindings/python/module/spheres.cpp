@@ -25,6 +25,7 @@
 #include "bihive/io/reading_settings.h"
 #include "bihive/io/write_spheres.h"
 #include "bihive/job/input.h"
+#include "bihive/job/scene_request.h"
 #include "bihive/job/selection.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/colour_by.h"
@@ -216,7 +217,8 @@ SphereFile read_input_file(const InputOptions& options) {
 }
 
 SharedSpheres read(const std::vector<std::string>& words) {
-  const InputOptions options = request_of(words).input;
+  InputOptions options = request_of(words).input;
+  take_saved_input(options);
   auto made = std::make_shared<Spheres>();
   wait_for(
       [&](Work&) {

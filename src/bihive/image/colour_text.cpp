@@ -1,6 +1,9 @@
 #include "bihive/image/colour_text.h"
 
 #include <cstdint>
+#include <string>
+
+#include "bihive/base/parse_number.h"
 
 namespace bihive {
 namespace {
@@ -37,16 +40,37 @@ std::optional<std::uint32_t> bytes_from_text(std::string_view text) {
   return rgb;
 }
 
+// "srgb(0.5,0.25,1)".
+std::optional<Vec3d> numbers_from_text(std::string_view text) {
+  constexpr std::string_view kBegin = "srgb(";
+  if (!text.starts_with(kBegin) || !text.ends_with(')')) return std::nullopt;
+  std::string_view rest = text.substr(kBegin.size(), text.size() - kBegin.size() - 1);
+  Vec3d numbers;
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (channel == 2)) return std::nullopt;
+    const Result<double> number = number_from_text(std::string(rest.substr(0, comma)), 0, 1);
+    if (!number) return std::nullopt;
+    numbers[channel] = *number;
+    if (channel < 2) rest.remove_prefix(comma + 1);
+  }
+  return numbers;
+}
+
+// As the screen shows them.
+std::optional<Vec3d> screen_from_text(std::string_view text) {
+  const std::optional<std::uint32_t> rgb = bytes_from_text(text);
+  if (!rgb) return numbers_from_text(text);
+  const auto channel = [&rgb](int shift) { return ((*rgb >> shift) & 0xFF) / 255.0; };
+  return Vec3d{channel(16), channel(8), channel(0)};
+}
+
 }  // namespace
 
 std::optional<Vec3d> colour_from_text(std::string_view text, Transfer transfer) {
-  const std::optional<std::uint32_t> rgb = bytes_from_text(text);
-  if (!rgb) return std::nullopt;
-  Vec3d colour;
-  for (int channel = 0; channel < 3; ++channel) {
-    const double screen = ((*rgb >> (16 - 8 * channel)) & 0xFF) / 255.0;
-    colour[channel] = transfer == Transfer::srgb ? linear_from_srgb(screen) : screen;
-  }
+  std::optional<Vec3d> colour = screen_from_text(text);
+  if (colour && transfer == Transfer::srgb)
+    for (int channel = 0; channel < 3; ++channel) (*colour)[channel] = linear_from_srgb((*colour)[channel]);
   return colour;
 }
 

@@ -1,4 +1,4 @@
-// Colours as people write them: "#rrggbb" or a name.
+// Colours as people write them: "#rrggbb", "srgb(r,g,b)" or a name.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 namespace bihive {
 
 /// The linear radiance that appears on the screen as the text's colour. Each byte v is v / 255 with the transfer
-/// `none`; with `srgb` the inverse of the sRGB curve is applied to that. Nothing if the text is neither "#rrggbb" nor
-/// one of kColourNames.
+/// `none`; with `srgb` the inverse of the sRGB curve is applied to that. "srgb(r,g,b)" has numbers from 0 to 1 in place
+/// of these quotients. Nothing if the text is none of these, nor one of kColourNames.
 std::optional<Vec3d> colour_from_text(std::string_view text, Transfer transfer);
 
 /// For messages: every name that colour_from_text() knows.

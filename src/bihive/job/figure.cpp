@@ -102,6 +102,7 @@ Verdict verify_figure(const std::string& path, const std::string& input, const s
   try {
     const Figure figure = read_figure(path);
     verdict.drawn_by = version_with_commit(figure.record.version, figure.record.commit);
+    verdict.built_in = figure.record.built_in;
     const PictureRequest request = request_again(figure, path, input, {});
     verdict.changed_files = changed_files(figure.record, request);
     const FigurePixels again = draw(request, figure.record.layers);

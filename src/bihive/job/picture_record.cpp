@@ -9,6 +9,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/base/sha256.h"
 #include "bihive/base/version.h"
+#include "bihive/io/bundled.h"
 #include "bihive/io/data_path.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/film/fixed_json.h"
@@ -36,6 +37,16 @@ bool changes_nothing(const GivenSetting& setting, View view) {
 std::string sha256_at(const std::string& path) {
   const Result<std::string> digits = sha256_of_file(data_path(path).file);
   return digits ? *digits : "";
+}
+
+// The bytes of an input: those of the bundled molecule have a name too.
+constexpr const char* kBundled = "demo";
+
+std::string sha256_of_input(const std::string& input) {
+  if (input != kBundled) return sha256_at(input);
+  Sha256 digest;
+  digest.add(bundled_molecule());
+  return digest.digits();
 }
 
 RecordedFile recorded_file(const std::string& option, const std::string& path) {
@@ -227,8 +238,11 @@ std::vector<std::string> changed_files(const PictureRecord& record, const Pictur
     return std::string();
   };
   for (const RecordedFile& file : record.files)
-    if (sha256_at(path_of(file.option)) != file.sha256) changed.push_back(file.option);
-  if (!record.built_in.empty() && request.input.input != record.built_in) changed.push_back(kInputFile);
+    if (sha256_of_input(path_of(file.option)) != file.sha256) changed.push_back(file.option);
+  const std::string& input = request.input.input;
+  const bool is_same =
+      input == record.built_in || (record.built_in == kBundled && sha256_of_input(input) == sha256_of_input(kBundled));
+  if (!record.built_in.empty() && !is_same) changed.push_back(kInputFile);
   return changed;
 }
 

@@ -70,15 +70,16 @@ std::string scene_of_request(const PictureRequest& request, const std::string& p
   return to_scene_json(saved);
 }
 
-void take_saved_request(PictureRequest& request) {
+bool take_saved_request(PictureRequest& request, const std::function<bool(const std::string& id)>& takes) {
   for (int documents = 0;; ++documents) {
     const std::string document = request.input.input;
     const std::optional<SavedRequest> saved = request_in(document);
-    if (!saved) return;
+    if (!saved) return documents > 0;
     if (documents == kMostDocuments)
       fail({"its input is a scene file with an input of its own, again and again", document, 0, 0, ""});
     std::vector<GivenSetting> settings;
     for (const auto& [id, value] : saved->options) {
+      if (takes && !takes(id)) continue;
       if (id == "colour_by" && names_file(id, value))
         fail({"names a file of colours (" + value + "), and a scene file holds the colours themselves", document, 0, 0,
               "bihive scene save writes them"});
@@ -90,6 +91,22 @@ void take_saved_request(PictureRequest& request) {
     merge_settings(merged, settings, request.given);
     request = std::move(merged);
   }
+}
+
+void take_saved_input(InputOptions& input, TreeParameters* tree) {
+  PictureRequest request;
+  request.input.input = input.input;
+  const auto give = [&request](const std::string& id, const std::string& value) {
+    request.given.push_back({id, value});
+  };
+  if (input.count) give("count", std::to_string(*input.count));
+  if (input.seed) give("seed", std::to_string(*input.seed));
+  for (const auto& [row, text] : input.reading.all()) give(std::string(row->id), text);
+  if (!take_saved_request(request)) return;
+  input = request.input;
+  if (tree == nullptr) return;
+  if (!tree->max_prims) tree->max_prims = request.tree.max_prims;
+  if (!tree->max_depth) tree->max_depth = request.tree.max_depth;
 }
 
 }  // namespace bihive

@@ -1,7 +1,8 @@
-// Requests in scene files: `bihive scene save` writes the input and all options of a picture, and every front end that
-// draws pictures takes them again (scene/saved_request.h).
+// Requests in scene files: `bihive scene save` writes the input and all options of a picture, and every front end takes
+// them again (scene/saved_request.h).
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "bihive/job/picture_request.h"
@@ -13,7 +14,12 @@ namespace bihive {
 std::string scene_of_request(const PictureRequest& request, const std::string& path);
 
 /// If the input is a scene file with such a request, takes its input and its options. Options of `request` replace them
-/// as changes of a figure do (picture_record.h). Fails with kBadUsage as take_setting(), and on an unreadable file.
-void take_saved_request(PictureRequest& request);
+/// as changes of a figure do (picture_record.h). Returns whether it is one. Fails with kBadUsage as take_setting(), and
+/// on an unreadable file. `takes`: which of the file's options the command has, by their ids; others are left out.
+bool take_saved_request(PictureRequest& request, const std::function<bool(const std::string& id)>& takes = {});
+
+/// The same for a command that draws nothing: it takes the input, how to read it and, unless null, the parameters of
+/// its tree.
+void take_saved_input(InputOptions& input, TreeParameters* tree = nullptr);
 
 }  // namespace bihive

@@ -123,8 +123,11 @@ std::string judgement_of(const Verdict& verdict) {
     separator = "; ";
   };
   for (const std::string& option : verdict.changed_files)
-    add(option == kInputFile ? "the input has other bytes"
-                             : "the file of " + setting_name(option) + " has other bytes");
+    if (option != kInputFile)
+      add("the file of " + setting_name(option) + " has other bytes");
+    else
+      add(verdict.built_in.empty() ? "the input has other bytes"
+                                   : "the input is not the built-in scene " + verdict.built_in);
   if (!verdict.same_form) add("the picture has another size or form");
   if (verdict.pixels_differ > 0)
     add(fmt::format("{} pixel{} differ{}, by up to {:.6g}, the first at ({}, {})", grouped(verdict.pixels_differ),

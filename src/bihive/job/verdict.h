@@ -23,6 +23,7 @@ struct Verdict {
   std::string figure;
   std::string drawn_by;                    ///< version and commit
   std::string error;                       ///< why it could not be drawn; empty: it was
+  std::string built_in;                    ///< the built-in scene of which it was drawn; empty: of a file
   std::vector<std::string> changed_files;  ///< options of files with other bytes
   std::int64_t pixels_differ = 0;
   double largest = 0;           ///< difference of a channel, in its own steps; of OpenEXR as numbers

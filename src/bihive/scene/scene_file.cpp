@@ -480,7 +480,7 @@ Result<LoadedScene> parse_scene(std::string_view text, const std::string& name, 
                  "name the film's input, and this file after " + setting_name("film")};
   if (document->is_object() && document->contains("input"))
     return Error{"is a picture of another input, and holds no spheres", name, 0, 0,
-                 "name that input, or draw the picture by bihive render"};
+                 "its input is " + document->at("input").dump(-1, ' ', false, json::error_handler_t::replace)};
   const Status status = check_against_schema(*document, name);
   if (!status) return status.error();
   return Extraction(*document, name, options, looks, style).run();
