@@ -148,16 +148,17 @@ std::string summary_of(const Report& report) {
 std::string report_html(const Report& report, const std::string& folder) {
   const Json load = report.load();
   Json view = report.about;
-  view.update({{"style", std::string(thesis_template_css())},
-               {"busy", load["busy"]},
-               {"others_percent", load["most_others"].is_null() ? Json() : 100 * load["most_others"].get<double>()},
-               {"quick", report.settings.quick},
-               {"seed", report.settings.seed},
-               {"threads", report.settings.threads > 0 ? std::to_string(report.settings.threads) : "all"},
-               {"devices", report.devices},
-               {"has_runs", report.devices.contains("runs")},
-               {"has_shown", report.devices.contains("shown")},
-               {"counts", counts_of(report)}});
+  view.update(
+      {{"style", std::string(thesis_template_css())},
+       {"busy", load["busy"]},
+       {"others_percent", load["most_others"].is_null() ? Json() : Json(100 * load["most_others"].get<double>())},
+       {"quick", report.settings.quick},
+       {"seed", report.settings.seed},
+       {"threads", report.settings.threads > 0 ? std::to_string(report.settings.threads) : "all"},
+       {"devices", report.devices},
+       {"has_runs", report.devices.contains("runs")},
+       {"has_shown", report.devices.contains("shown")},
+       {"counts", counts_of(report)}});
   for (const auto& [letter, title] : kSections) {
     Json rows = Json::array();
     for (const Experiment& part : report.parts)
