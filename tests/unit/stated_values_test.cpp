@@ -74,8 +74,8 @@ TEST(StatedValues, BuiltinOnesSayWhoseTheyAre) {
     const auto values = StatedValues::parse(text, "values.json");
     EXPECT_TRUE(values) << message_of(values);
     std::map<std::string, std::string> kinds;
-    for (const auto& [name, entry] : nlohmann::json::parse(values->text())["values"].items())
-      kinds[name] = entry["kind"];
+    const auto document = nlohmann::json::parse(values->text());
+    for (const auto& [name, entry] : document["values"].items()) kinds[name] = entry["kind"];
     return kinds;
   };
   for (const std::string_view text : texts)
