@@ -450,8 +450,6 @@ void add_thesis(CLI::App& app, ThesisOptions& options, Request& request) {
                   "A run or frames shown, saved by the page on another device;\nmay come several times")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_option("--against", options.against, "results.json of an older run: the report says what changed")
-      ->type_name("FILE");
   add_json_flag(command, options.json);
 }
 

@@ -15,7 +15,6 @@
 
 #include "bihive/base/cancel.h"
 #include "bihive/thesis/experiments.h"
-#include "machine_load.h"
 #include "values.h"
 
 namespace bihive::thesis {
@@ -58,7 +57,7 @@ struct Experiment {
   bool asked = true;                         ///< requested on the command line; else shown with an earlier run's
                                              ///< results
   std::map<std::string, Json> results = {};  ///< of all finished steps, by name
-  MachineLoad load = {};                     ///< of these steps
+  double others = -1;                        ///< the largest of their shares of other programs (LoadWatch::others())
   Json data = Json::object();                ///< made of the results
   Json findings = Json::array(), claims = Json::array();
 

@@ -1,6 +1,5 @@
 #include "machine_load.h"
 
-#include <fmt/format.h>
 #include <sched.h>
 #include <unistd.h>
 
@@ -48,45 +47,15 @@ double seconds_by(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-void MachineLoad::add(const MachineLoad& part) {
-  const double all = seconds + part.seconds;
-  if (all > 0) others = (others * seconds + part.others * part.seconds) / all;
-  known = (seconds == 0 || known) && part.known;
-  seconds = all;
-  most_others = std::max(most_others, part.most_others);
-}
-
-std::string MachineLoad::text() const {
-  if (seconds == 0) return "nothing was measured";
-  if (!known) return "unknown on this system";
-  return fmt::format(
-      "{:.1f} % of the processors' time went to other programs while it measured, {:.1f} % in the worst step of those "
-      "that took over a second",
-      100 * others, 100 * most_others);
-}
-
-nlohmann::ordered_json MachineLoad::json() const {
-  using Json = nlohmann::ordered_json;
-  return {{"seconds", seconds},
-          {"others", known ? Json(others) : Json()},
-          {"most_others", known ? Json(most_others) : Json()},
-          {"busy", busy()}};
-}
-
 LoadWatch::LoadWatch()
     : wall_(seconds_by(CLOCK_MONOTONIC)), busy_(busy_seconds()), own_(seconds_by(CLOCK_PROCESS_CPUTIME_ID)) {}
 
-MachineLoad LoadWatch::so_far() const {
-  MachineLoad load;
-  load.seconds = seconds_by(CLOCK_MONOTONIC) - wall_;
+double LoadWatch::others() const {
   const cpu_set_t allowed = allowed_processors();
-  const double all = load.seconds * CPU_COUNT(&allowed), busy = busy_seconds();
-  load.known = busy_ >= 0 && busy >= 0;
+  const double seconds = seconds_by(CLOCK_MONOTONIC) - wall_, busy = busy_seconds();
+  if (busy_ < 0 || busy < 0 || seconds < 1) return -1;
   const double own = seconds_by(CLOCK_PROCESS_CPUTIME_ID) - own_;
-  if (load.known && all > 0) load.others = std::clamp((busy - busy_ - own) / all, 0.0, 1.0);
-  // The accounting counts in hundredths of a second: a shorter step tells nothing.
-  load.most_others = load.seconds > 1 ? load.others : 0;
-  return load;
+  return std::clamp((busy - busy_ - own) / (seconds * CPU_COUNT(&allowed)), 0.0, 1.0);
 }
 
 }  // namespace bihive::thesis

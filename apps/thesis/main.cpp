@@ -114,10 +114,6 @@ void print_summary(const Report& report, const std::string& file) {
         print(escaped(fmt::format("{}: {}{}{}: {}", words, claim, of.empty() ? "" : ", ", of, ours)) + "\n");
       }
   print("Claims: " + summary_of(report) + ".\n");
-  if (!report.against.is_null())
-    print(fmt::format("Beside {}: {} findings are as they were, {} have another verdict, {} another value.\n",
-                      escaped(report.against["file"].get<std::string>()), report.against["same"].get<int>(),
-                      report.against["changed"].get<int>(), report.against["moved"].get<int>()));
   print(escaped(file) + "\n");
 }
 
@@ -126,11 +122,9 @@ void run_thesis(const ThesisOptions& options, const std::string& command) {
   check_values(options);
   if (options.out == kStandardStream) fail_usage("--out names a folder, and - is none");
   if (fs::is_directory(options.out)) cli::check_outputs(cli::outputs_of(options), cli::inputs_of(options));
-  // Other runs are read before the long work: a wrong file is reported at once, and this run may overwrite it.
-  Json older;
-  if (!options.against.empty()) older = read_older_run(options.against);
   Report report{settings};
   add_experiments(options, report);
+  // Files are read before the long work: a wrong one is reported at once.
   if (!options.devices.empty())
     for (const Experiment& part : report.parts)
       if (part.id == "figure-4.4") report.devices = devices_data(options.devices, part.values);
@@ -160,7 +154,6 @@ void run_thesis(const ThesisOptions& options, const std::string& command) {
                   {"compiler", compiler()},
                   {"machine", fmt::format("{}, {} threads", processor_name(), threads)},
                   {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))}};
-  if (!older.is_null()) report.against = compared_with(std::move(older), report.parts);
   const Json json = results_json(report);
   const std::string text = json.dump(2, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace) + "\n";
   const std::string file = options.out + "/report.html";

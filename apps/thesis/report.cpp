@@ -9,6 +9,7 @@
 #include "bihive/base/write_file.h"
 #include "bihive/image/html_text.h"
 #include "claims.h"
+#include "machine_load.h"
 
 namespace bihive::thesis {
 namespace {
@@ -131,10 +132,10 @@ Json counts_of(const Report& report) {
 
 }  // namespace
 
-MachineLoad Report::load() const {
-  MachineLoad all;
-  for (const Experiment& part : parts) all.add(part.load);
-  return all;
+Json Report::load() const {
+  double most = -1;
+  for (const Experiment& part : parts) most = std::max(most, part.others);
+  return {{"most_others", most < 0 ? Json() : Json(most)}, {"busy", most > kBusy}};
 }
 
 std::string summary_of(const Report& report) {
@@ -145,19 +146,19 @@ std::string summary_of(const Report& report) {
 }
 
 std::string report_html(const Report& report, const std::string& folder) {
-  const MachineLoad load = report.load();
+  const Json load = report.load();
   Json view = report.about;
-  view.update({{"style", std::string(thesis_template_css())},
-               {"load", load.text()},
-               {"busy", load.busy()},
-               {"quick", report.settings.quick},
-               {"seed", report.settings.seed},
-               {"threads", report.settings.threads > 0 ? std::to_string(report.settings.threads) : "all"},
-               {"devices", report.devices},
-               {"has_runs", report.devices.contains("runs")},
-               {"has_shown", report.devices.contains("shown")},
-               {"against", report.against},
-               {"counts", counts_of(report)}});
+  view.update(
+      {{"style", std::string(thesis_template_css())},
+       {"busy", load["busy"]},
+       {"others_percent", load["most_others"].is_null() ? Json() : Json(100 * load["most_others"].get<double>())},
+       {"quick", report.settings.quick},
+       {"seed", report.settings.seed},
+       {"threads", report.settings.threads > 0 ? std::to_string(report.settings.threads) : "all"},
+       {"devices", report.devices},
+       {"has_runs", report.devices.contains("runs")},
+       {"has_shown", report.devices.contains("shown")},
+       {"counts", counts_of(report)}});
   for (const auto& [letter, title] : kSections) {
     Json rows = Json::array();
     for (const Experiment& part : report.parts)
@@ -193,7 +194,6 @@ Json results_json(const Report& report) {
     experiments.push_back({{"id", part.id},
                            {"title", part.title},
                            {"missing_steps", missing},
-                           {"load", part.load.json()},
                            {"findings", part.findings},
                            {"data", part.data}});
     for (const Json& claim : part.claims)
@@ -202,15 +202,14 @@ Json results_json(const Report& report) {
         one[key] = claim[key];
   }
   const Settings& settings = report.settings;
-  Json results{{"bihive_results", 3}};
+  Json results{{"bihive_results", 4}};
   results.update(report.about);
-  results.update({{"load", report.load().json()},
+  results.update({{"load", report.load()},
                   {"settings", {{"quick", settings.quick}, {"seed", settings.seed}, {"threads", settings.threads}}},
                   {"complete", complete},
                   {"claims", std::move(claims)},
                   {"experiments", std::move(experiments)}});
   for (const auto& [name, list] : report.devices.items()) results[name == "runs" ? "devices" : "shown_frames"] = list;
-  if (!report.against.is_null()) results["against"] = report.against["rows"];
   return results;
 }
 

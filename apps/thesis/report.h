@@ -22,23 +22,16 @@ struct Report {
   /// "machine" (processor and threads), "date" (ISO 8601)}
   Json about = {};
   Json devices = Json::object();  ///< devices_data()
-  Json against = {};              ///< compared_with(); null: there is no older run
 
-  MachineLoad load() const;  ///< of all steps
+  /// {"most_others" (the largest share of the processors' time that went to other programs in a step; null: unknown),
+  /// "busy" (so large that its times say little)}
+  Json load() const;
 };
 
 /// Measurements of other devices, in files saved by the page's "Run the thesis on this device" and, for the window, by
 /// scripts/shown_frames: {"runs": [...], "shown": [...]}; a list without a file is omitted. The report shows runs
 /// beside the text's values for its phone. Fails if a file is neither.
 Json devices_data(const std::vector<std::string>& files, const Values& figure_4_4);
-
-/// An older run from its results.json: {"file", "version", "commit", "machine", "date", "findings": {"experiment
-/// name": {"ours", "verdict"}}}. Fails if the file is none.
-Json read_older_run(const std::string& file);
-/// The findings with another verdict: {"file", "version", "commit", "machine", "date", "same", "changed", "moved",
-/// "fresh", "gone", "rows": [{"experiment", "name", "claim", "changed": "verdict" or "value", "then", "now",
-/// "then_ours", "now_ours"}]}
-Json compared_with(Json older, const std::list<Experiment>& parts);
 
 /// Pictures are read from `folder` and embedded as data, charts inline.
 std::string report_html(const Report& report, const std::string& folder);

@@ -5,6 +5,7 @@
 
 #include "bihive/bih/child_boxes.h"
 #include "bihive/bih/reference_builder.h"
+#include "machine_load.h"
 #include "pictures.h"
 
 namespace bihive::thesis {

@@ -8,6 +8,7 @@
 #include "bihive/base/write_file.h"
 #include "bihive/job/messages.h"
 #include "experiment.h"
+#include "machine_load.h"
 
 namespace bihive::thesis {
 namespace {
@@ -62,18 +63,16 @@ void load_results(Experiment& experiment, const std::string& out) {
     const Result<std::string> bytes = read_file(path_of(experiment, step.name, out));
     Result<Json> saved = bytes ? json_from_text<Json>(*bytes) : Result<Json>(bytes.error());
     if (!saved || !saved->is_object() || saved->value("key", Json()) != key || !saved->contains("result")) continue;
-    try {
-      experiment.load.add(nlohmann::json(saved->at("load")).get<MachineLoad>());
-    } catch (const nlohmann::json::exception&) {
-      continue;
-    }
+    const Json others = saved->value("others", Json());
+    if (!others.is_number()) continue;
+    experiment.others = std::max(experiment.others, others.get<double>());
     experiment.results.emplace(step.name, std::move((*saved)["result"]));
   }
   if (experiment.results.empty()) return;
   make_folder(experiment.folder);
   if (is_readable(experiment, out)) return;
   experiment.results.clear();
-  experiment.load = {};
+  experiment.others = -1;
 }
 
 void run_steps(std::list<Experiment>& experiments, const std::string& out) {
@@ -94,11 +93,11 @@ void run_steps(std::list<Experiment>& experiments, const std::string& out) {
       const LoadWatch watch;
       Json result = step.run();
       if (experiment.cancel.cancelled()) return;
-      const MachineLoad load = watch.so_far();
-      const Json document{{"key", key}, {"load", nlohmann::json(load)}, {"result", result}};
+      const double others = watch.others();
+      const Json document{{"key", key}, {"others", others}, {"result", result}};
       value_or_fail(write_file(path_of(experiment, step.name, out), document.dump(1) + "\n"));
       experiment.results.emplace(step.name, std::move(result));
-      experiment.load.add(load);
+      experiment.others = std::max(experiment.others, others);
       done += step.weight;
     }
   }

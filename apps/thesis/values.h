@@ -30,7 +30,7 @@ class Values {
   std::int64_t limit(const std::string& name) const;
   /// A side of a picture in pixels, 1 to 65535; `divisor`: of a smaller one.
   int side(const std::string& name, int divisor = 1) const;
-  std::string printed(const std::string& name) const { return value_or_fail(stated_.value(name)).printed; }
+  std::string printed(const std::string& name) const { return value_or_fail(stated_.printed(name)); }
   const StatedValues& stated() const { return stated_; }
   /// The whole file: "values", each with its claim if it has one, and "remarks": claims without a comparison.
   const Json& document() const { return document_; }

@@ -31,7 +31,7 @@ Result<std::string> measure_shown_frames(double seconds) {
   if (!values) return values.error();
   Result<ShownFramesPlan> plan = ShownFramesPlan::from_values(*values);
   if (!plan) return plan.error();
-  plan->measure_for(seconds);
+  plan->seconds = seconds;
   ShownFrames frames(std::move(*plan));
 
   const int width = frames.plan().width_px, height = frames.plan().height_px;

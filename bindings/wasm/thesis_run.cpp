@@ -149,7 +149,7 @@ std::string ShownFramesRun::begin(double seconds) {
     if (!values) return failure(values.error());
     Result<ShownFramesPlan> plan = ShownFramesPlan::from_values(*values);
     if (!plan) return failure(plan.error());
-    plan->measure_for(seconds);
+    plan->seconds = seconds;
     frames_.emplace(std::move(*plan));
     return std::string("{}");
   });

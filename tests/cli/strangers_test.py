@@ -287,7 +287,7 @@ class DeepJson(ProgramTest):
             plan[path[0]][path[1]] = "@"
             self.write("plan.json", json.dumps(plan).replace('"@"', deep))
             self.fail_input("render", "a.xyz", "--film", "plan.json", "--picture", "1", "-o", "o.png")
-        self.fail_input("thesis", "figure-4.1", "--out", "here", "--against", "deep.json")
+        self.fail_input("thesis", "figure-4.1", "--out", "here", "--device", "deep.json")
 
 
 class KeptIndex(ProgramTest):

@@ -161,7 +161,7 @@ TEST(ConfigurationTimes, GainByTheTreeOfTheMedianRound) {
   EXPECT_DOUBLE_EQ(frames_per_second(times.at({2, 64}).brute), 50);
 }
 
-TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
+TEST(FrameRatesReport, HoldsTimesAndStatedValues) {
   FrameRateRun run(small_plan(), {});
   while (!run.finished()) ASSERT_TRUE(run.step());
   const auto json = nlohmann::json::parse(frame_rates_json(
@@ -173,11 +173,6 @@ TEST(FrameRatesReport, HoldsTimesGainsAndStatedValues) {
   EXPECT_EQ(json["complete"], true);
   ASSERT_EQ(json["configurations"].size(), 6u);
   EXPECT_TRUE(json["configurations"][0]["max_prims"].is_null());
-  ASSERT_EQ(json["gains"].size(), 2u);
-  const double brute = json["configurations"][0]["fps"], gain = json["gains"][0]["percent"];
-  const double best =
-      std::max(json["configurations"][1]["fps"].get<double>(), json["configurations"][2]["fps"].get<double>());
-  EXPECT_NEAR(gain, 100 * (best / brute - 1), 1e-9 * std::abs(gain) + 1e-9);
   EXPECT_EQ(json["stated"]["brute.fps.spheres256"]["value"], 1.87);
   // Values that we inferred, because the thesis states none, do not count as stated.
   EXPECT_FALSE(json["stated"].contains("width_px"));
@@ -271,9 +266,8 @@ TEST(FrameRatesReport, DrawsWhatIsComplete) {
   EXPECT_TRUE(frame_rates_charts(run, stated_values().value(), "here").empty());
   while (!run.finished()) ASSERT_TRUE(run.step());
   const std::vector<std::string> charts = frame_rates_charts(run, stated_values().value(), "here");
-  ASSERT_EQ(charts.size(), 3u);
-  EXPECT_NE(charts[0].find("iPhone 5s, stated, 2 mean: 1,212"), std::string::npos) << charts[0];
-  EXPECT_EQ(charts[1].find("iPhone 5s"), std::string::npos) << "a picture of another size has other rates";
+  ASSERT_EQ(charts.size(), 2u);
+  EXPECT_EQ(charts[0].find("iPhone 5s"), std::string::npos) << "a picture of another size has other rates";
 
   // Values that say this size.
   std::string text(builtin_values_figure_4_4());
@@ -288,8 +282,8 @@ TEST(FrameRatesReport, DrawsWhatIsComplete) {
   const Result<StatedValues> small = StatedValues::parse(text, "values.json");
   ASSERT_TRUE(small);
   const std::vector<std::string> whole = frame_rates_charts(run, *small, "here");
-  EXPECT_NE(whole[1].find("BIH 8, iPhone 5s, stated, 64: 60"), std::string::npos) << whole[1];
-  EXPECT_EQ(whole[2].find("iPhone 5s"), std::string::npos) << "the thesis states nothing of 64 spheres there";
+  EXPECT_NE(whole[0].find("BIH 8, iPhone 5s, stated, 64: 60"), std::string::npos) << whole[0];
+  EXPECT_EQ(whole[1].find("iPhone 5s"), std::string::npos) << "the thesis states nothing of 64 spheres there";
 }
 
 }  // namespace

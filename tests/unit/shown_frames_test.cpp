@@ -23,7 +23,6 @@ ShownFramesPlan small_plan() {
   plan.height_px = 27;
   plan.threads = 1;
   plan.seconds = 1;
-  plan.warm_up_seconds = 0.25;
   return plan;
 }
 
@@ -36,12 +35,6 @@ TEST(ShownFrames, AreTheThesis) {
   EXPECT_EQ(plan->height_px, 640);
   EXPECT_EQ(plan->max_prims, std::vector<std::int64_t>{8});
   EXPECT_EQ(plan->recursion, 1);
-  ShownFramesPlan quick = *plan;
-  quick.measure_for(0.1);
-  EXPECT_EQ(quick.warm_up_seconds, 0.1);
-  quick.measure_for(5);
-  EXPECT_EQ(quick.seconds, 5);
-  EXPECT_EQ(quick.warm_up_seconds, 0.1);
   // Nine configurations, two engines, at rest and turning.
   EXPECT_EQ(ShownFrames(*plan).rates().size(), 9u * 2 * 2);
 }
@@ -60,8 +53,8 @@ TEST(ShownFrames, CountsWhatIsShownAfterTheWarmUp) {
     now_ms += 20;
     frames.shown(now_ms);
   }
-  // 14 frames warm up: the first and those of 260 ms behind it. 50 count.
-  EXPECT_EQ(shown, 8 * (14 + 50));
+  // 16 frames warm up: the first and those of 300 ms after it. 50 count.
+  EXPECT_EQ(shown, 8 * (16 + 50));
   for (const ShownRate& rate : frames.rates()) {
     EXPECT_EQ(rate.frames, 50);
     EXPECT_DOUBLE_EQ(rate.fps(), 50);
@@ -75,6 +68,21 @@ TEST(ShownFrames, CountsWhatIsShownAfterTheWarmUp) {
   EXPECT_EQ(json["configurations"][3]["turning"], true);
   EXPECT_EQ(json["configurations"][7]["scenario"], 3);
   EXPECT_EQ(json["configurations"][7]["fps"], 50.0);
+}
+
+// A short measurement warms up no longer than it lasts.
+TEST(ShownFrames, WarmUpInNoLongerThanTheyAreMeasured) {
+  ShownFramesPlan plan = small_plan();
+  plan.seconds = 0.1;
+  ShownFrames frames(plan);
+  double now_ms = 1000;
+  int shown = 0;
+  for (; !frames.finished(); ++shown) {
+    ASSERT_LT(shown, 1000);
+    ASSERT_TRUE(frames.draw());
+    frames.shown(now_ms += 20);
+  }
+  EXPECT_EQ(shown, 8 * (6 + 5));
 }
 
 // At rest every frame is the same picture; turning, they differ; both engines draw the same first picture.

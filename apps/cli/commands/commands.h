@@ -209,7 +209,6 @@ struct ThesisOptions {
   std::vector<double> costs;  ///< of Figure 4.4, for all its claims: apps/thesis/experiment.h; empty: fitted ones
   std::string values;         ///< folder of other stated values; empty: the built-in ones
   std::vector<std::string> devices;  ///< runs that the page saved on other devices
-  std::string against;               ///< results.json of an older run for comparison; empty: none
   bool json = false;
 };
 

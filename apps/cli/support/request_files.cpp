@@ -53,7 +53,6 @@ Files inputs_of(const ConvertOptions& options) {
   return files_of(options.input);
 }
 
-// The older results of --against are not among them: they are read before a run overwrites them.
 Files inputs_of(const ThesisOptions& options) {
   return options.devices;
 }

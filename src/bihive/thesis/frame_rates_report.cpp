@@ -26,29 +26,6 @@ bool has_values(const Series& series) {
   return std::any_of(series.values.begin(), series.values.end(), [](const auto& value) { return value.has_value(); });
 }
 
-// Least, greatest and mean gain of each scenario, as the thesis names them; only for scenarios without missing groups.
-std::string gains_chart(const FrameRateRun& run, const StatedValues& stated, const std::string& here) {
-  ChartData chart{"Gain of the best tree over brute force", "",   "percent", {},
-                  {{here, {}}, {kStatedDevice, {}}},        false};
-  for (const std::int64_t scenario : run.plan().scenarios) {
-    std::vector<double> percents;
-    for (const auto& [configuration, times] : times_of(run.rates()))
-      if (configuration.first == scenario) percents.push_back(times.gain_percent());
-    if (percents.size() != run.plan().spheres.size()) continue;
-    const auto [least, most] = std::minmax_element(percents.begin(), percents.end());
-    const std::pair<const char*, double> rows[] = {
-        {"least", *least}, {"best", *most}, {"mean", mean_and_sd(percents).mean}};
-    for (const auto& [name, percent] : rows) {
-      chart.categories.push_back(fmt::format("{} {}", scenario, std::string(name) == "best" ? "most" : name));
-      chart.series[0].values.emplace_back(percent);
-      chart.series[1].values.push_back(
-          stated_number(stated, fmt::format("scenario{}.gain_percent.{}", scenario, name)));
-    }
-  }
-  chart.x_label = "scenario: least, most and mean over the numbers of spheres";
-  return chart.categories.empty() ? "" : bar_chart(chart);
-}
-
 // Empty if the scenario has no measurement.
 std::string scenario_chart(const FrameRateRun& run, const StatedValues& stated, std::int64_t scenario) {
   const FrameRatePlan& plan = run.plan();
@@ -141,12 +118,6 @@ std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values
                                       {"max_prims", rate.max_prims ? ordered_json(*rate.max_prims) : ordered_json()},
                                       {"fps", frames_per_second(rate.frame_ms)},
                                       {"frame_ms", rate.frame_ms}});
-  json["gains"] = ordered_json::array();
-  for (const auto& [configuration, times] : times_of(run.rates()))
-    json["gains"].push_back({{"scenario", configuration.first},
-                             {"spheres", configuration.second},
-                             {"max_prims", times.fastest()},
-                             {"percent", times.gain_percent()}});
   if (costs != nullptr && costs->fitted.frames > 0) {
     ordered_json& row = json["costs"];
     for (const auto& [name, value] : costs->fitted.named()) row[name] = value;
@@ -200,11 +171,8 @@ std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const State
     if (costs->fitted.determined()) diagram.points = {{here, costs->fitted}};
     charts.push_back(cost_diagram_svg(diagram));
   }
-  const auto add = [&charts](std::string chart) {
-    if (!chart.empty()) charts.push_back(std::move(chart));
-  };
-  add(gains_chart(run, values, here));
-  for (const std::int64_t scenario : run.plan().scenarios) add(scenario_chart(run, values, scenario));
+  for (const std::int64_t scenario : run.plan().scenarios)
+    if (std::string chart = scenario_chart(run, values, scenario); !chart.empty()) charts.push_back(std::move(chart));
   return charts;
 }
 

@@ -39,10 +39,9 @@ struct MeasuredCosts {
 Result<MeasuredCosts> measured_costs(const FrameRateRun& run, const StatedValues& values, int threads);
 
 /// {"experiment", "engine", "device", (its facts), "width_px", "height_px", "quick", "rounds", "complete", "drift",
-/// "configurations": [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "gains":
-/// [{"scenario", "spheres", "max_prims" (of the best tree), "percent"}], "stated": {name: {"value", "sentence"}}}; with
-/// `costs` also "costs": {the members of FittedCosts::named(), "inner_words", "leaf_words", "determined", "rms",
-/// "winner", "wins", "configurations"}.
+/// "configurations": [{"scenario", "spheres", "max_prims" (null: brute force), "fps", "frame_ms": [...]}], "stated":
+/// {name: {"value", "sentence"}}}; with `costs` also "costs": {the members of FittedCosts::named(), "inner_words",
+/// "leaf_words", "determined", "rms", "winner", "wins", "configurations"}.
 std::string frame_rates_json(const FrameRateRun& run, const StatedValues& values, const std::string& engine,
                              const MeasuringDevice& device, const MeasuredCosts* costs = nullptr);
 
@@ -56,9 +55,8 @@ struct SavedFrameRates {
 /// Nothing if the text is not such a result.
 std::optional<SavedFrameRates> saved_frame_rates(const std::string& json);
 
-/// SVG texts: the gains over brute force beside the stated ones, then the frame rates of each scenario beside the few
-/// that the thesis states. `here` names this device in the legend. With `costs`, the diagram of the winner by cost
-/// comes first, with this device as a point if its costs are determined.
+/// SVG texts: the frame rates of each scenario beside the few that the thesis states. With `costs`, the diagram of the
+/// winner by cost comes first, with this device as a point of the name `here` if its costs are determined.
 std::vector<std::string> frame_rates_charts(const FrameRateRun& run, const StatedValues& values,
                                             const std::string& here, const MeasuredCosts* costs = nullptr);
 

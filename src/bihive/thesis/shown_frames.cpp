@@ -11,6 +11,9 @@
 namespace bihive {
 namespace {
 
+// Before a measurement, and never longer than that; these frames do not count.
+constexpr double kWarmUpSeconds = 0.3;
+
 // The camera, turned around the vertical axis through its look-at point.
 Camera turned(const Camera& camera, double turns) {
   const auto [s, c] = sine_cosine_deg(360 * turns);
@@ -30,11 +33,6 @@ Result<ShownFramesPlan> ShownFramesPlan::from_values(const StatedValues& values)
   ShownFramesPlan plan{*figure};
   plan.max_prims = {*best};
   return plan;
-}
-
-void ShownFramesPlan::measure_for(double each_seconds) {
-  seconds = each_seconds;
-  warm_up_seconds = std::min(warm_up_seconds, each_seconds);
 }
 
 ShownFrames::ShownFrames(ShownFramesPlan plan) : plan_(std::move(plan)) {
@@ -91,7 +89,7 @@ void ShownFrames::shown(double now_ms) {
   if (!warm_since_ms_) warm_since_ms_ = now_ms;
   if (!since_ms_) {
     // The last warm-up frame starts the clock, and does not count.
-    if (now_ms - *warm_since_ms_ >= 1000 * plan_.warm_up_seconds) since_ms_ = now_ms;
+    if (now_ms - *warm_since_ms_ >= 1000 * std::min(kWarmUpSeconds, plan_.seconds)) since_ms_ = now_ms;
     return;
   }
   ShownRate& rate = rates_[next_];

@@ -18,11 +18,7 @@ namespace bihive {
 
 /// The figure's plan without its rounds. Its only MAX_PRIMS is the one that the text calls the best.
 struct ShownFramesPlan : FrameRatePlan {
-  double seconds = 2;            ///< minimum duration of a measurement, which ends with a frame; > 0
-  double warm_up_seconds = 0.3;  ///< before it; these frames do not count
-
-  /// Measures for this many seconds, and warms up no longer than that.
-  void measure_for(double each_seconds);
+  double seconds = 2;  ///< minimum duration of a measurement, which ends with a frame; > 0
 
   /// The thesis's configurations. Error: a value is missing.
   static Result<ShownFramesPlan> from_values(const StatedValues& values);

@@ -64,7 +64,7 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
     if (std::find(std::begin(kKinds), std::end(kKinds), kind) == std::end(kKinds))
       return stated.error_at("/values/" + name + "/kind", R"("stated", "set", "fitted", "inferred" or "own_check")");
     const json& value = entry["value"];
-    StatedValue& one = stated.values_[name];
+    Value& one = stated.values_[name];
     one.is_list = value.is_array();
     if (value.is_array()) one.numbers = value.get<std::vector<double>>();
     if (value.is_number()) one.numbers = {value.get<double>()};
@@ -73,27 +73,31 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
     const std::optional<double> number = number_in_print(one.printed);
     if (one.printed.empty() || (number && (!value.is_number() || *number != value)))
       one.printed = value.is_string() ? value.get<std::string>() : value.dump();
-    one.sentence = entry["sentence"].get<std::string>();
-    one.kind = kind.get<std::string>();
   }
   return stated;
 }
 
-Result<StatedValue> StatedValues::value(const std::string& name) const {
+Result<StatedValues::Value> StatedValues::value(const std::string& name) const {
   const auto found = values_.find(name);
   if (found == values_.end()) return error_at("/values/" + name, "a value of this name");
   return found->second;
 }
 
 Result<std::vector<double>> StatedValues::numbers(const std::string& name) const {
-  Result<StatedValue> one = value(name);
+  Result<Value> one = value(name);
   if (!one) return one.error();
   if (one->numbers.empty()) return error_at("/values/" + name + "/value", "numbers");
   return std::move(one->numbers);
 }
 
+Result<std::string> StatedValues::printed(const std::string& name) const {
+  Result<Value> one = value(name);
+  if (!one) return one.error();
+  return std::move(one->printed);
+}
+
 Result<double> StatedValues::number(const std::string& name) const {
-  const Result<StatedValue> one = value(name);
+  const Result<Value> one = value(name);
   if (!one) return one.error();
   if (one->is_list || one->numbers.empty()) return error_at("/values/" + name + "/value", "one number");
   return one->numbers.front();

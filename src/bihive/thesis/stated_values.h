@@ -14,15 +14,6 @@
 
 namespace bihive {
 
-/// One value of an experiment.
-struct StatedValue {
-  std::vector<double> numbers;  ///< a single number is a list of one; empty for a text
-  bool is_list = false;
-  std::string printed;  ///< as the thesis prints it: "printed", unless that is another number; else the value as JSON
-  std::string sentence;
-  std::string kind;  ///< "stated", "set", "fitted", "inferred" or "own_check"
-};
-
 /// One experiment's values. thesis/README.md describes the document:
 ///   {"values": {"scenario1.max_prims1.inner_nodes": {"value": 4095, "kind": "stated", "printed": "4,095",
 ///                                                    "sentence": "Nodes Internal 4,095 ..."}, ...}}
@@ -34,18 +25,25 @@ class StatedValues {
 
   bool has(const std::string& name) const { return values_.count(name) != 0; }
   // Error, with file and location: there is no such value, or it is not a number, list of numbers, whole number.
-  Result<StatedValue> value(const std::string& name) const;
   Result<double> number(const std::string& name) const;
   Result<std::int64_t> integer(const std::string& name) const;
   Result<std::vector<double>> numbers(const std::string& name) const;
   Result<std::vector<std::int64_t>> integers(const std::string& name) const;
+  /// As the thesis prints it: "printed", unless that is another number; else the value as JSON.
+  Result<std::string> printed(const std::string& name) const;
   const std::string& text() const { return text_; }  ///< the document as read
 
  private:
+  struct Value {
+    std::vector<double> numbers;  // a single number is a list of one; empty for a text
+    bool is_list = false;
+    std::string printed;
+  };
+  Result<Value> value(const std::string& name) const;
   Error error_at(const std::string& place, const std::string& expected) const;
 
   std::string file_, text_;
-  std::map<std::string, StatedValue> values_;
+  std::map<std::string, Value> values_;
 };
 
 /// The thesis/*/values.json files embedded in the program (CMake): builtin_values_figure_4_1() and so on.
