@@ -196,12 +196,13 @@ void conclude(Json& claim, const std::vector<Json>& findings, const Json& entrie
   std::string found = findings.size() <= kListed ? fmt::format("{}", fmt::join(ours, "; "))
                       : all                      ? fmt::format("All {} agree", holding)
                                                  : fmt::format("{} of {} agree", holding, findings.size());
-  for (const char* const more : {"note", "reason"}) {
-    std::string text;
-    for (const Json& entry : entries) text = entry.value(more, text);
-    if (!text.empty() && (more == std::string("note") || rank(worst) > 0)) found += ". " + text;
-    claim["why"] = text;  // the reason, which is the last
+  std::string note, reason;
+  for (const Json& entry : entries) {
+    note = entry.value("note", note);
+    reason = entry.value("reason", reason);
   }
+  if (!note.empty()) found += ". " + note;
+  claim["why"] = rank(worst) > 0 ? reason : "";
   claim["found"] = found;
 }
 
@@ -259,12 +260,15 @@ Json claims_of(const Experiment& experiment) {
     conclude(one, findings, entries);
     // Gains in percent are told with the costs of a ray's steps that make them.
     const std::string where = experiment.data.value(Json::json_pointer("/claims_at_costs/where"), "");
-    const Json& entry = entries.front();
-    const std::string unit = entry.value("unit", "");
+    const std::string unit = entries.front().value("unit", "");
     const bool gain = unit.starts_with(" %") || unit.starts_with(" percent");
-    if (!entry.value("of", "").starts_with("at.text.") || where.empty() || !gain) continue;
-    const std::string found = one["found"];
-    one["found"] = found + (found.ends_with('.') ? " At " : ". At ") + where + ".";
+    const auto add = [&found = one["found"]](const std::string& more) {
+      const std::string before = found;
+      found = before + (before.ends_with('.') ? " " : ". ") + more;
+    };
+    if (gain && !where.empty() && entries.front().value("of", "").starts_with("at.text.")) add("At " + where + ".");
+    one["numbers"] = one["found"];
+    if (const std::string why = one.value("why", ""); !why.empty()) add(why);
   }
   for (const Json& remark : experiment.values.document().value("remarks", Json::array()))
     begin(remark, remark["verdict"], remark["reason"]);

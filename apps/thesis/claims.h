@@ -23,8 +23,9 @@ Json words_of(const std::string& verdict);
 Json words_of(const Json& finding);
 
 /// The claims of the text with their results: [{"section", "claim", "experiment", "verdict" (that of its worst finding,
-/// after its kind; of a remark "value_lost", "not_compared", "tested"), "found" (our numbers in short, the note, and
-/// the reason where it applies)}], with the members of words_of() and "sentence" (that of its first entry).
+/// after its kind; of a remark "value_lost", "not_compared", "tested"), "numbers" (ours in short, and the note), "why"
+/// (the reason, if its verdict needs one), "found" (both)}], with the members of words_of() and "sentence" (that of its
+/// first entry). Remarks have "found" alone.
 Json claims_of(const Experiment& experiment);
 
 }  // namespace bihive::thesis

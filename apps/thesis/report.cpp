@@ -165,8 +165,10 @@ std::string report_html(const Report& report, const std::string& folder) {
       for (const Json& claim : part.claims) {
         if (claim["section"] != letter) continue;
         rows.push_back(claim);
-        if (claim["css_class"] == "unlike" || claim["css_class"] == "differs")
-          view["not_found"]["rows"].push_back(claim);
+        if (claim["css_class"] != "unlike" && claim["css_class"] != "differs") continue;
+        // Its reason stands in that list.
+        view["not_found"]["rows"].push_back(claim);
+        rows.back()["found"] = claim["numbers"];
       }
     if (!rows.empty()) view["sections"].push_back({{"letter", letter}, {"title", title}, {"rows", std::move(rows)}});
   }
