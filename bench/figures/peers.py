@@ -75,6 +75,22 @@ def pymol(pdb, folder, occlusion):
         yield folder / f"pymol{threads}.png"
 
 
+def molstar(pdb, folder, occlusion):
+    """In a browser whose WebGL is software, on as many processors as there are threads. BIHIVE_MOLSTAR: the folder of its modules
+    (molstar.mjs). It has no shadows without blur, so that "sharp" is without any."""
+    modules = os.environ["BIHIVE_MOLSTAR"]
+    for threads in THREADS:
+        if threads > os.cpu_count():
+            continue
+        out = folder / f"molstar{threads}"
+        run(["taskset", "-c", f"0-{threads - 1}", "node", pathlib.Path(__file__).with_name("molstar.mjs"), modules, pdb, out], folder)
+        yield out.with_name(out.name + ("-soft.png" if occlusion else "-sharp.png"))
+
+
+def is_here(name):
+    return "BIHIVE_MOLSTAR" in os.environ if name == "Mol*" else shutil.which(name.lower().replace("-", "")) is not None
+
+
 def bihive(program):
     def draw(pdb, folder, occlusion):
         style = ["--style", "default" if occlusion else "plain"]
@@ -88,10 +104,10 @@ def repeats(program, pdb, folder):
     """A row for each program: its name, and for sharp shadows and for soft light whether all its pictures are equal; None: it is not here, or
     has no such light."""
     rows = []
-    for name, draw in [("bihive", bihive(program)), ("Tachyon", tachyon), ("POV-Ray", povray), ("PyMOL", pymol)]:
+    for name, draw in [("bihive", bihive(program)), ("Tachyon", tachyon), ("POV-Ray", povray), ("PyMOL", pymol), ("Mol*", molstar)]:
         row = {"program": name}
         for kind, occlusion in [("sharp", False), ("soft", True)]:
-            if name != "bihive" and shutil.which(name.lower().replace("-", "")) is None:
+            if name != "bihive" and not is_here(name):
                 row[kind] = None
                 continue
             folder_of = pathlib.Path(folder) / f"{name}-{kind}"
