@@ -109,19 +109,20 @@ class Picture:
         depth: distances along the view in world units, as layer("depth") has them; infinity gives no finite point.
         """
         origins, directions, forward = self._rays(x, y)
-        along = (directions * forward).sum(axis=-1)
+        along, away = (directions * forward).sum(axis=-1), np.asarray(numbers("depth", depth))
         try:
-            t = numbers("depth", depth) / along
-            made: npt.NDArray[np.float64] = origins + t[..., None] * directions
+            t = away / along
         except ValueError:
-            raise bad_argument("depth", f"has shape {np.shape(depth)}, which does not fit x and y, {along.shape}") from None
+            raise bad_argument("depth", f"has shape {away.shape}, which does not fit x and y, {along.shape}") from None
+        made: npt.NDArray[np.float64] = origins + t[..., None] * directions
         return made
 
     def _rays(self, x: Any, y: Any) -> tuple[Any, Any, Any]:
+        columns, rows_of = numbers("x", x), numbers("y", y)
         try:
-            at = np.broadcast_arrays(numbers("x", x), numbers("y", y))
+            at = np.broadcast_arrays(columns, rows_of)
         except ValueError:
-            raise bad_argument("y", f"has shape {np.shape(y)}, which does not fit x, {np.shape(x)}") from None
+            raise bad_argument("y", f"has shape {rows_of.shape}, which does not fit x, {columns.shape}") from None
         rows = [np.ascontiguousarray(one.reshape(-1), dtype=np.float64) for one in at]
         origins, directions, forward = self._core.camera_rays(*rows)
         shape = (*at[0].shape, 3)
