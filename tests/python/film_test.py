@@ -43,6 +43,16 @@ class Films(ProgramTest):
         self.assertEqual(subprocess.run(rate, cwd=self.folder, stdout=subprocess.PIPE).stdout.strip(), b"10/1")
         self.assertEqual(bh.film(frames, self.path("b.webm"), frames=slice(1, 4, 2), **OPTIONS), 2)
 
+    def test_masks_and_positions(self):
+        frames = [bh.Spheres([[x, 0, 0], [0, 0, 0], [0, 3, 0]], radius=1) for x in (2, 3)]
+        options = {"looks": bh.Look([0], radius_scale=0.5), **OPTIONS}  # colour suffers from the codec
+        self.assertEqual(bh.film(frames, self.path("a.mp4"), select=np.array([True, True, False]), **options), 2)
+        first = bh.render(frames[0], select="index 0 1", **options)
+        self.assert_film("a.mp4", [bh.render(s, camera=first, select="index 0 1", **options) for s in frames])
+        with self.assertRaisesRegex(bh.UsageError, "select: expected a mask of shape"):
+            bh.film([*frames, frames[0][[0, 1]]], self.path("b.mp4"), select=[True, True, False], **options)
+        self.assertEqual(os.listdir(self.folder), ["a.mp4"])
+
     def test_a_universe(self):
         universe = Universe()
         self.assertEqual(bh.film(universe, self.path("a.mp4"), select="element O and x > -1", **OPTIONS), 4)

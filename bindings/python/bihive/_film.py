@@ -377,7 +377,6 @@ def film(
         if options.get(name) is not None:
             raise bad_argument(name, "is for a film of a file", "give the file's path, or the frames in the order of the film")
     rate = _rate(fps)
-    words = picture_words(select, camera, style, looks, {"size": size, **options})
     like = camera if isinstance(camera, Picture) else None
     encoder: Optional[_Ffmpeg] = None
     count = 0
@@ -385,6 +384,7 @@ def film(
         in_all = _count_of(source, frames)
         with Bar(progress, "filming") as bar:
             for spheres in _frames_of(source, atoms, frames):
+                words = picture_words(select, camera, style, looks, {"size": size, **options}, len(spheres))
                 all_words = [*words, f"--frame={count}", "--", "spheres"]
                 # The first frame is drawn again, with the camera and the ranges that it determines for all.
                 like = like or draw(spheres, all_words, style_text(style), None, False)
