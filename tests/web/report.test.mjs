@@ -96,7 +96,7 @@ async function look({ width, largestShare, leastTextHeight }) {
   });
   const shown = colours.filter(Boolean);
   check(new Set(shown).size === shown.length, `two states share a colour: ${colours}`);
-  const experiments = document.querySelectorAll('section[id]').length - 2; // the claims, and this run
+  const experiments = document.querySelectorAll('section[id]').length - 3; // the claims, this run, and other devices
   return { claims: claims.length, faults, drawings: drawings.length, pictures: pictures.length, experiments };
 }
 
