@@ -437,8 +437,9 @@ class Addresses(WebTest):
 class Words(WebTest):
     def test_help(self):
         text = self.succeed("web", "--help")
-        for word in ["--port", "--bind", "--no-browser", "--json", "bihive web molecule.pdb"]:
+        for word in ["--port", "--bind", "--no-browser", "bihive web molecule.pdb"]:
             self.assertIn(word, text)
+        self.assertIn("--json", self.succeed("web", "--help-all"))
         self.assertIn("web", self.succeed("--help"))
 
     def test_people_get_the_address_alone_in_a_line(self):
