@@ -10,6 +10,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/job/choose_look.h"
 #include "bihive/job/failure.h"
+#include "bihive/job/film/fixed_json.h"
 #include "bihive/job/input.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/picture_options.h"
@@ -64,8 +65,16 @@ bool places_camera(const ViewOptions& options) {
          options.zoom || options.view_of;
 }
 
+// The size for which a camera is fitted. The angle is along the shorter side, so what fits a square fits every window;
+// a pixel more says which side is longer.
+PictureSize fitted_size(const std::optional<PictureSize>& window) {
+  constexpr int kSide = 800;
+  return window && window->height_px > window->width_px ? PictureSize{kSide, kSide + 1} : PictureSize{kSide + 1, kSide};
+}
+
 // The camera of `bihive render`.
-Camera camera_of_picture(const ViewOptions& options, PictureSize size) {
+Camera camera_of_picture(const ViewOptions& options) {
+  const PictureSize size = fitted_size(options.size);
   if (options.input.input == kStandardStream)
     fail_usage("such a camera needs the input twice, and the standard input can be read once",
                "write it into a file first");
@@ -78,19 +87,7 @@ Camera camera_of_picture(const ViewOptions& options, PictureSize size) {
   return input.scene.camera;
 }
 
-ordered_json camera_json(const Camera& camera) {
-  const auto vector = [](Vec3d v) { return ordered_json{v.x, v.y, v.z}; };
-  return {{"eye", vector(camera.eye)},
-          {"look_at", vector(camera.look_at)},
-          {"up", vector(camera.up)},
-          {"fov_deg", camera.fov_deg},
-          {"projection", name_of(kProjections, camera.projection)},
-          {"shorter_side", camera.shorter_side},
-          {"aperture", camera.aperture},
-          {"focus", camera.focus}};
-}
-
-void put_camera(const ViewOptions& options, PictureSize size, bool with_side, ordered_json& settings) {
+void put_camera(const ViewOptions& options, bool with_side, ordered_json& settings) {
   ordered_json camera = ordered_json::object();
   put(camera, "fov_deg", options.fov_deg);
   if (options.projection) camera["projection"] = name_of(kProjections, *options.projection);
@@ -103,8 +100,7 @@ void put_camera(const ViewOptions& options, PictureSize size, bool with_side, or
     else
       settings["focus_on"] = std::get<std::string>(*options.focus);
   }
-  if (places_camera(options) || (with_side && options.view_from))
-    camera = camera_json(camera_of_picture(options, size));
+  if (places_camera(options) || (with_side && options.view_from)) camera = camera_json(camera_of_picture(options));
   if (!camera.empty()) settings["camera"] = camera;
 }
 
@@ -144,7 +140,7 @@ void check_shown(const ViewOptions& options) {
                "there are soft, jmol and cpk; files of colours are for bihive render");
 }
 
-ordered_json settings_to_show(const ViewOptions& options, PictureSize size, bool with_side) {
+ordered_json settings_to_show(const ViewOptions& options, bool with_side) {
   const auto limit = [](std::int64_t value) {
     return value == kUnlimited ? ordered_json("unlimited") : ordered_json(value);
   };
@@ -152,7 +148,7 @@ ordered_json settings_to_show(const ViewOptions& options, PictureSize size, bool
   settings["view"] = name_of(kViews, options.view);
   if (options.window_engine) settings["engine"] = name_of(kViewerEngines, *options.window_engine);
   put_parameters(options, settings);
-  put_camera(options, size, with_side, settings);
+  put_camera(options, with_side, settings);
   if (options.tree.max_prims) settings["max_prims"] = limit(*options.tree.max_prims);
   if (options.tree.max_depth) settings["max_depth"] = limit(*options.tree.max_depth);
   return settings;

@@ -3,7 +3,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bihive/job/values.h"
 #include "commands/commands.h"
 
 namespace bihive::cli {
@@ -15,10 +14,10 @@ void take_request_to_show(ViewOptions& options);
 /// Fails with kBadUsage on a style, element colours or options that window and page do not have.
 void check_shown(const ViewOptions& options);
 
-/// `settings` and `look` as in viewer/viewer_json.h. A camera that follows from selections, a turn or the like is that
-/// of the picture of this size, for which the input is read; `with_side`: that of a side from which the whole set is
-/// seen too.
-nlohmann::ordered_json settings_to_show(const ViewOptions& options, PictureSize size, bool with_side);
+/// `settings` and `look` as in viewer/viewer_json.h. Reads the input to compute the camera if that depends on the
+/// spheres: with selections, a turn, a zoom, `principal` or `best`; `with_side`: also with `--view-from SIDE`. The
+/// camera fits windows of every size.
+nlohmann::ordered_json settings_to_show(const ViewOptions& options, bool with_side);
 nlohmann::ordered_json look_to_show(const ViewOptions& options);
 
 }  // namespace bihive::cli

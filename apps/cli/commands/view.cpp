@@ -19,8 +19,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kProgram = "bihive-view";
-constexpr PictureSize kWindow{1280, 800};
-
 // The JSON object of apps/viewer/request.h.
 ordered_json request_of(const ViewOptions& options) {
   ordered_json request = ordered_json::object();
@@ -33,7 +31,7 @@ ordered_json request_of(const ViewOptions& options) {
   if (options.view_from) request["view_from"] = name_of(kSides, *options.view_from);
   request["look"] = look_to_show(options);
   if (!options.screenshot.empty()) request["screenshot"] = options.screenshot;
-  request["settings"] = settings_to_show(options, options.size.value_or(kWindow), /*with_side=*/false);
+  request["settings"] = settings_to_show(options, /*with_side=*/false);
   return request;
 }
 

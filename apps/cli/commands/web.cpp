@@ -51,13 +51,11 @@ ordered_json reading_of(const InputOptions& input) {
 // The first state of the page, where the user asks for one; else the page's own.
 void put_state(const ViewOptions& options, ordered_json& start) {
   if (options.given.empty()) return;
-  // What a picture in a window of usual shape needs, fits others nearly.
-  constexpr PictureSize kSize{1280, 800};
   if (options.input.seed)
     fail_usage("the page's scenarios have the seed 1", "write the scene into a file by bihive scene");
   if (options.input.count) start["source"]["count"] = *options.input.count;
   if (const ordered_json reading = reading_of(options.input); !reading.empty()) start["source"]["reading"] = reading;
-  start["settings"] = settings_to_show(options, kSize, /*with_side=*/true);
+  start["settings"] = settings_to_show(options, /*with_side=*/true);
   start["look"] = look_to_show(options);
 }
 
