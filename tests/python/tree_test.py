@@ -398,7 +398,9 @@ class Queries(unittest.TestCase):
         by = hits.derivatives()
         towards = (hits.normals() * direction).sum(axis=1)
         for ray in np.flatnonzero((hits.id >= 0) & (np.abs(towards) > 0.5))[:40]:
-            i, h = hits.id[ray], 2.0**-10  # coordinates are kept in float32
+            # Centres are kept in float32, 2**-23 apart near 1: a step of h has an error of 2**-24 / h, below 1e-4, times
+            # derivatives of the normal of up to 1 / radius squared; h itself costs h times the second derivative.
+            i, h = hits.id[ray], 2.0**-10
             for axis in range(3):
                 step = np.eye(3)[axis] * h
                 ends = [
@@ -528,6 +530,8 @@ class Queries(unittest.TestCase):
             (lambda: self.tree.nearest(o, exclude=300), "exclude"),
             (lambda: self.tree.nearest(o, mask=[True]), "mask"),
             (lambda: self.tree.within(o, 1, mask=[300]), "mask"),
+            (lambda: self.tree.within(o, 1, mask=[0, -1]), "mask"),
+            (lambda: bh.Tree(self.spheres, select=[0, -1]), "select"),
             (lambda: self.tree.count_within(o, np.nan), "limits"),
             (lambda: self.tree.contains(o, mask="mass > 1"), "mask"),
             (lambda: self.tree.update(o), "xyz"),

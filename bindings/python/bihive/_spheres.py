@@ -16,6 +16,7 @@ from ._checks import boolean, mapping, one_of, path_of, several, text_of, whole_
 from ._colours import Linear, light_of
 from ._errors import FileError, InputError, InputWarning, UsageError, bad_argument, found, shortened, writing
 from ._options import words_of
+from ._select import chosen
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -163,23 +164,6 @@ def _columns(columns: Any, count: int) -> tuple[dict[str, Array], dict[str, list
         else:
             numbers_of[column] = _exact_numbers(column, array, count)
     return numbers_of, texts_of
-
-
-def chosen(name: str, which: Any, spheres: Spheres, periodic: bool = True) -> Array:
-    """bool (n,): the spheres that a selection takes: an expression, a mask of shape (n,), or positions."""
-    count = len(spheres)
-    if isinstance(which, str):
-        made: Array = spheres._core.select(text_of(name, which), name, periodic)
-        return made
-    try:
-        positions = _positions(as_array(name, which), count)
-    except IndexError as error:
-        raise bad_argument(name, str(error)) from None
-    except TypeError:
-        raise bad_argument(name, f"expected a selection as text, a mask or positions, found {found(which)}") from None
-    made = np.zeros(count, dtype=bool)
-    made[positions] = True
-    return made
 
 
 def _positions(key: Any, count: int) -> Array:
@@ -631,7 +615,7 @@ def convert(
     """
     spheres = read(check_readable(source, "source"), **options)
     if select is not None:
-        spheres = spheres[chosen("select", select, spheres)]
+        spheres = spheres[chosen("select", select, spheres._core)]
     return spheres.save(path, format)
 
 

@@ -14,7 +14,8 @@ from ._checks import boolean, one_of
 from ._errors import Error, InputError, bad_argument, found
 from ._hits import ClosestHits, Hits, Near, Pairs, RayQuery
 from ._options import words_of
-from ._spheres import Spheres, chosen
+from ._select import chosen
+from ._spheres import Spheres
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -75,7 +76,7 @@ class Tree:
         self._ids: Optional[Array] = None
         images = boolean("periodic", periodic)
         if select is not None:
-            self._ids = np.flatnonzero(chosen("select", select, self._spheres, images))
+            self._ids = np.flatnonzero(chosen("select", select, self._spheres._core, images))
         self._options = words_of({"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads})
         self._sees_images = images
         self._core = self._built(self._spheres)
@@ -318,8 +319,8 @@ class Tree:
         """Every pair of spheres at a distance of at most `reach`, once: between their surfaces (0: those that touch or overlap),
         or with to="centre" between their centres.
 
-        mask: only these spheres count: an expression, a mask of shape (n,), or positions. Where the tree is periodic, a sphere
-        and the images of others, and of itself, are pairs too.
+        mask: only these spheres count: an expression, a mask of shape (n,), or positions. With a
+        periodic tree, images count: those of other spheres and of the sphere itself.
 
         >>> tree = Tree(Spheres([[0.0, 0, 0], [1.5, 0, 0], [9, 0, 0]], radius=1))
         >>> pairs = tree.pairs(0)
@@ -355,7 +356,7 @@ class Tree:
         """A byte for each sphere of the tree; None: all count."""
         if mask is None:
             return None
-        counting = chosen("mask", mask, self._spheres, self._sees_images)
+        counting = chosen("mask", mask, self._spheres._core, self._sees_images)
         return np.ascontiguousarray(counting if self._ids is None else counting[self._ids]).view(np.uint8)
 
     def _own(self, exclude: Any, shape: Shape) -> Optional[Array]:
@@ -454,7 +455,7 @@ def _lists_without_own(begin: Array, ids: Array, distance: Array, own: Array) ->
     """The same of lists in order of positions, then distance."""
     point = np.repeat(np.arange(len(own)), np.diff(begin))
     is_own = ids == own[point]
-    is_own[1:] &= ~((ids[1:] == ids[:-1]) & (point[1:] == point[:-1]))  # of the images, the nearest
+    is_own[1:] &= ~((ids[1:] == ids[:-1]) & (point[1:] == point[:-1]))  # leave out only the nearest image
     stays = ~is_own
     counts = np.diff(begin) - np.bincount(point[is_own], minlength=len(own))
     return np.concatenate([[0], np.cumsum(counts)]), ids[stays], distance[stays]
