@@ -14,11 +14,33 @@ Path = Union[str, "os.PathLike[str]"]
 Colour = Union[str, Sequence[float], "Linear"]
 
 
-class RenderOptions(TypedDict, total=False):
+class ReadOptions(TypedDict, total=False):
+    """Options of read() and convert(); None: as if left out."""
+
+    radius: Optional[float]  # Radius of every sphere (scenarios: 1)
+    radius_scale: Optional[float]  # Files: multiply every radius
+    frame: Optional[int]  # Files: which frame or model, from 0; -1 is the last (0)
+    trajectory: Optional[Path]  # Files: coordinates of the same spheres per frame (DCD, H5MD, NetCDF of AMBER, TRR and XTC)
+    smooth: Optional[int]  # Files with frames: means of coordinates over N frames, an odd number, with the frame in the middle
+    recenter: Optional[bool]  # Files: move the middle of the set to the origin
+    assembly: Optional[Union[str, int]]  # PDB, mmCIF: copy the chains as this biological assembly says, e.g. 1; bihive info lists them
+    columns: Optional[Mapping[str, Union[str, float]]]  # CSV, HDF5, LAMMPS dump, NetCDF, NPY, NPZ, PCD, PLY, VTK, VTK XML and XYZ: columns by name or position, e.g. x=px,y=py,z=pz,r=5
+    replicate: Optional[tuple[int, int, int]]  # Files: this many copies along the vectors of the periodic cell
+    cell_vectors: Optional[Sequence[float]]  # Files: the three vectors of the cell (the file's)
+    cell_origin: Optional[Sequence[float]]  # Files: the corner of the cell (the file's, else 0,0,0)
+    periodic: Optional[bool]  # Files: distances see the images of the periodic cell (usual); rays of bihive trace too
+    wrap: Optional[Union[bool, Literal["molecules"]]]  # Files: move every centre into the cell
+    wrap_molecules: Optional[bool]  # Files: bring molecules together, and move each into the cell as a whole; also as the value molecules of wrap
+    unwrap: Optional[bool]  # Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues
+    count: Optional[int]  # Scenarios: number of spheres (4096)
+    seed: Optional[int]  # Scenarios: the seed of their random numbers (1)
+
+
+class RenderOptions(ReadOptions, total=False):
     """Options of render(), and of films and figures; None: as if left out."""
 
     crop: Optional[Sequence[float]]  # Draw only this rectangle of its pixels, counted from the top left corner; X1, Y1 are exclusive
-    view: Optional[Literal["shaded", "recursion", "traversal", "normal", "distance", "id", "tree"]]  # What the picture shows (shaded)
+    view: Optional[Literal["shaded", "recursion", "traversal", "normal", "distance", "id", "tree"]]  # Quantity to draw (shaded)
     samples: Optional[Union[int, Literal["auto"]]]  # Samples per pixel, 1 to 4096 (files: 4, thesis scenes: 1, with an aperture 64); auto: 4, and 16 on edges
     recursion: Optional[int]  # Generations of rays; 1: primary rays only (5)
     matte: Optional[Colour]  # With a transparent background: the colour that will lie behind the picture, to which edges, fog and letters are fitted
@@ -46,7 +68,7 @@ class RenderOptions(TypedDict, total=False):
     exposure: Optional[float]  # Stops: all light times 2^EV; the background keeps its colour (the style's)
     tone: Optional[Literal["none", "soft", "filmic"]]  # Curve for light that is too bright for the picture (the style's)
     view_from: Optional[str]  # Show the whole set from this side (files: front); principal: its longest axis along the picture's longer side; best: the direction that shows most of a selection
-    eye: Optional[Sequence[float]]  # Where the camera is
+    eye: Optional[Sequence[float]]  # Camera position
     look_at: Optional[Union[Sequence[float], str]]  # The middle of the picture: a point, or the centre of the spheres of a selection; the eye stays
     fit: Optional[str]  # These spheres alone are fitted into the picture, as if there were no others: the camera goes near them, and others may be beside or behind it
     zoom_to: Optional[str]  # Magnify until these spheres fill the picture: the camera keeps its direction and distance, and shows what stands before them
@@ -61,28 +83,11 @@ class RenderOptions(TypedDict, total=False):
     max_prims: Optional[Union[int, Literal["unlimited"]]]  # Maximum spheres per leaf (the engine's choice; reference: 8)
     max_depth: Optional[Union[int, Literal["unlimited"]]]  # Maximum levels of the tree (the engine's choice; reference: unlimited)
     threads: Optional[int]  # Threads (0: as many as the machine runs at once)
-    count: Optional[int]  # Scenarios: number of spheres (4096)
-    seed: Optional[int]  # Scenarios: the seed of their random numbers (1)
-    radius: Optional[float]  # Radius of every sphere (scenarios: 1)
-    frame: Optional[int]  # Files: which frame or model, from 0; -1 is the last (0)
-    trajectory: Optional[Path]  # Files: coordinates of the same spheres per frame (DCD, H5MD, NetCDF of AMBER, TRR and XTC)
-    smooth: Optional[int]  # Files with frames: means of coordinates over N frames, an odd number, with the frame in the middle
-    recenter: Optional[bool]  # Files: move the middle of the set to the origin
-    assembly: Optional[Union[str, int]]  # PDB, mmCIF: copy the chains as this biological assembly says, e.g. 1; bihive info lists them
-    columns: Optional[Mapping[str, Union[str, float]]]  # CSV, HDF5, LAMMPS dump, NetCDF, NPY, NPZ, PCD, PLY, VTK, VTK XML and XYZ: columns by name or position, e.g. x=px,y=py,z=pz,r=5
-    replicate: Optional[tuple[int, int, int]]  # Files: this many copies along the vectors of the periodic cell
-    cell_vectors: Optional[Sequence[float]]  # Files: the three vectors of the cell (the file's)
-    cell_origin: Optional[Sequence[float]]  # Files: the corner of the cell (the file's, else 0,0,0)
-    periodic: Optional[bool]  # Files: distances see the images of the periodic cell (usual); rays of bihive trace too
-    wrap: Optional[Union[bool, Literal["molecules"]]]  # Files: move every centre into the cell
-    wrap_molecules: Optional[bool]  # Files: bring molecules together, and move each into the cell as a whole; also as the value molecules of wrap
-    unwrap: Optional[bool]  # Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues
     colour: Optional[Colour]  # Colour them: a name, #rrggbb or r,g,b from 0 to 1
     colour_by: Optional[str]  # Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed: viridis, magma, plasma, inferno, cividis, turbo, greys, coolwarm, RdBu, okabe-ito, colours such as blue-white-red, or a file of some
     nan_colour: Optional[Colour]  # Colour of unknown numbers in the attribute that gives colours (grey)
     opacity: Optional[float]  # Their opacity, 0 (clear) to 1
     material: Optional[Literal["matte", "plastic", "metal", "glass", "flat", "toon"]]  # Their material (the style's)
-    radius_scale: Optional[float]  # After a selection: multiply their radii. Before: files, every radius
     outline: Optional[float]  # After a selection: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)
     crease: Optional[str]  # Lines between those that touch and differ in it, such as chain
     legend_name: Optional[str]  # Name them in the legend: beside their colour, or above the key of their colour-by
@@ -102,25 +107,3 @@ class RenderOptions(TypedDict, total=False):
     title_values: Optional[Path]  # CSV: a row for each frame, from 0; the first line names the columns: {NAME}
     font: Optional[Path]  # Font of titles, legends and the rest: TrueType or OpenType (DejaVu Sans)
     no_labels: Optional[bool]  # None of the labels that the scene file or the style asks for
-
-
-class ReadOptions(TypedDict, total=False):
-    """Options of read() and convert(); None: as if left out."""
-
-    radius: Optional[float]  # Radius of every sphere (scenarios: 1)
-    radius_scale: Optional[float]  # Files: multiply every radius
-    frame: Optional[int]  # Files: which frame or model, from 0; -1 is the last (0)
-    trajectory: Optional[Path]  # Files: coordinates of the same spheres per frame (DCD, H5MD, NetCDF of AMBER, TRR and XTC)
-    smooth: Optional[int]  # Files with frames: means of coordinates over N frames, an odd number, with the frame in the middle
-    recenter: Optional[bool]  # Files: move the middle of the set to the origin
-    assembly: Optional[Union[str, int]]  # PDB, mmCIF: copy the chains as this biological assembly says, e.g. 1; bihive info lists them
-    columns: Optional[Mapping[str, Union[str, float]]]  # CSV, HDF5, LAMMPS dump, NetCDF, NPY, NPZ, PCD, PLY, VTK, VTK XML and XYZ: columns by name or position, e.g. x=px,y=py,z=pz,r=5
-    replicate: Optional[tuple[int, int, int]]  # Files: this many copies along the vectors of the periodic cell
-    cell_vectors: Optional[Sequence[float]]  # Files: the three vectors of the cell (the file's)
-    cell_origin: Optional[Sequence[float]]  # Files: the corner of the cell (the file's, else 0,0,0)
-    periodic: Optional[bool]  # Files: distances see the images of the periodic cell (usual); rays of bihive trace too
-    wrap: Optional[Union[bool, Literal["molecules"]]]  # Files: move every centre into the cell
-    wrap_molecules: Optional[bool]  # Files: bring molecules together, and move each into the cell as a whole; also as the value molecules of wrap
-    unwrap: Optional[bool]  # Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues
-    count: Optional[int]  # Scenarios: number of spheres (4096)
-    seed: Optional[int]  # Scenarios: the seed of their random numbers (1)

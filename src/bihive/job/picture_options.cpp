@@ -162,7 +162,7 @@ void add_picture(Rows& rows) {
         .take = into(&PictureRequest::crop, crop_from)},
        {.id = "view",
         .value_name = list_of(kViews),
-        .help = "What the picture shows (shaded)",
+        .help = "Quantity to draw (shaded)",
         .ranks = kChunks,
         .take = into(&PictureRequest::view, choice(kViews))},
        samples_option(kMostSamplesPerPixel)});
@@ -280,7 +280,7 @@ void add_camera(Rows& rows) {
         .take = set_view},
        {.id = "eye",
         .value_name = "X,Y,Z",
-        .help = "Where the camera is",
+        .help = "Camera position",
         .theme = kTheme,
         .ranks = kChunks,
         .take = into(&PictureRequest::eye, vector_from)},
