@@ -38,7 +38,7 @@ struct bihive_scene {
   std::vector<std::pair<std::string, std::string>> settings;  // ids and values of the other options, in their order
   bihive::PictureRecord source;                               // its bytes, and the program
   std::string style;                                          // empty: none was named
-  std::string methods;                                        // of the last picture
+  std::string methods;                                        // the text for the last rendered picture
   std::mutex in_use;                                          // each picture places the camera and the lights again
 };
 

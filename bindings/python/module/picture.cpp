@@ -231,7 +231,7 @@ py::array pixels_of(const py::object& self) {
   return made;
 }
 
-// What a picture was drawn of. `what` needs it.
+// The scene and film of a picture. Fails, naming `what` was asked for, if they were released.
 std::shared_ptr<const Light> light_of(const Picture& picture, const std::string& what) {
   if (picture.light != nullptr) return picture.light;
   fail_usage(what + ": this picture has its pixels alone, because it was unpickled or detached", "render it again");

@@ -121,7 +121,7 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
   return made;
 }
 
-// What is known of the whole besides its spheres and their attributes.
+// A set without spheres, with the metadata of the whole: format, frames, time, step, rules and name.
 std::shared_ptr<Spheres> facts_of(const Spheres& whole) {
   auto made = std::make_shared<Spheres>();
   SphereFile& file = made->file;

@@ -39,9 +39,9 @@ std::int64_t find_nearest(const WideTree& tree, const PointQuestion& question, s
 void find_within(const WideTree& tree, const PointQuestion& question, std::vector<NearSphere>& found);
 
 /// For each sphere in slots `first` to before first + count, which are neighbours as those of a leaf are: appends the
-/// spheres with a larger id at a distance of at most `reach` (to the surface: from surface to surface as limit and
-/// radius add up) to `found`, by id, and sets counts[i] to their number. Stored units. The tree is no image and has no
-/// piles. `mask`: null, or a byte for each sphere; those of 0 have no pairs.
+/// spheres with a larger id at a distance of at most `reach`, between surfaces or between centres, to `found`, by id,
+/// and sets counts[i] to their number. Stored units. The tree is no image and has no piles. `mask`: null, or a byte for
+/// each sphere; those of 0 have no pairs.
 void find_pairs_of_leaf(const WideTree& tree, std::int64_t first, std::int64_t count, double reach, DistanceTo to,
                         const std::uint8_t* mask, std::vector<NearSphere>& found, std::int64_t* counts);
 
