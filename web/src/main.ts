@@ -7,7 +7,8 @@ import type { NamedBlob } from './figure_protocol';
 import { listen_for_keys } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
-import { start_embedded, tell } from './embedded';
+import { has_host, is_embedded, start_embedded } from './embedded';
+import { Host } from './host';
 import { document_of, link_of, reading_of, state_from, state_of, type State } from './link';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
@@ -50,6 +51,7 @@ let asked: Ask | null = null; // the user's own file that a link was made for
 let address_reading: Reading | undefined;
 let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
 const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean }>(); // loads by their ids: what holds once they are done
+const host = new Host();
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -85,8 +87,7 @@ const engine = new Engine(
       looks.show_facts(answer.facts);
       looks.show(look, answer.coloured_by);
       for (const text of answer.notes) note(text, answer.id);
-      const { name, format, spheres, frames } = answer.facts;
-      tell({ bihive: 'loaded', name, format, spheres, frames });
+      host.loaded(answer.id, answer.facts, answer.settings, answer.look);
     },
     failed: ({ id, message }) => {
       busy(null);
@@ -103,7 +104,7 @@ const engine = new Engine(
         }
       }
       fail(message);
-      tell({ bihive: 'failed', message });
+      host.failed(id, message);
     },
     note: ({ message }) => note(message),
     gpu: ({ gpu: found }) => {
@@ -117,6 +118,7 @@ const engine = new Engine(
     look: (answer) => {
       look = answer.look;
       if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.coloured_by, answer.fault);
+      host.look_answered();
     },
     frame: (answer) => {
       show_settings(answer.settings);
@@ -129,7 +131,8 @@ const engine = new Engine(
     player: ({ player: state }) => player.show(state),
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
-    picture: ({ picture: file }) => saving.done(file, facts?.name ?? 'picture'),
+    picked: ({ id, picked }) => host.picked(id, picked),
+    picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => {
       if (settings) show_engine(settings.engine);
@@ -189,6 +192,7 @@ const device_json = () => describe_device(gpu.name, navigator.hardwareConcurrenc
 
 function show_settings(now: Settings): void {
   settings = now;
+  host.settings(now);
 }
 
 function show_engine(name: EngineName): void {
@@ -265,7 +269,7 @@ async function open(
     busy(null);
     show_source(source);
     fail((error as Error).message);
-    tell({ bihive: 'failed', message: (error as Error).message });
+    host.failed(id, (error as Error).message);
   }
 }
 
@@ -389,8 +393,9 @@ async function start(): Promise<void> {
   figures = new Figures({ base: document.baseURI, threads }, () => shown_files);
   const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
   busy('Starting');
+  const wasm = await host.begin(threads);
   engine.send(
-    { type: 'start', threads, base: document.baseURI, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
+    { type: 'start', threads, base: document.baseURI, embedded: is_embedded, wasm, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
     [...canvases],
   );
   watch_size();
@@ -429,6 +434,38 @@ async function start(): Promise<void> {
       await opened;
     }
   };
+  host.start({
+    open: ({ source: from, file, trajectory, look, camera }) => {
+      const state = { settings: camera && { camera }, look };
+      if (file) void open(wanted_files({ file, trajectory }, from.reading), file.name, state, { file, trajectory });
+      else void open_source(from, state);
+      return loading;
+    },
+    read_again: (reading) => {
+      read_again(reading);
+      return loading;
+    },
+    look: (changes) => {
+      picture.dataset['settled'] = 'false';
+      engine.send({ type: 'look', serial: ++look_serial, changes });
+    },
+    camera: (camera) => {
+      framed = false;
+      change({ camera });
+    },
+    pick: (x, y) => {
+      const id = engine.new_id();
+      engine.send({ type: 'pick', id, x_px: x * scale, y_px: y * scale });
+      return id;
+    },
+    draw: (width, height) => {
+      const id = engine.new_id();
+      engine.send({ type: 'picture', id, width_px: width ?? size.width, height_px: height ?? size.height });
+      return id;
+    },
+  });
+  if (has_host) return;
+
   addEventListener('hashchange', () => void open_state());
   await open_state();
 }
