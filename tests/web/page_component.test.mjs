@@ -163,7 +163,7 @@ test('unknown values of attributes are told, with the one that is near', async (
     next(page, 'error', () => page.evaluate(([one, to]) => document.querySelector('bihive-viewer').setAttribute(one, to), [name, text]));
   assert.match((await set('look', 'flatt')).message, /did you mean "flat"/);
   assert.match((await set('background', 'whitee')).message, /background:.*did you mean "white"/);
-  assert.match((await set('colour-by', 'chargee')).message, /did you mean "charge"/);
+  assert.match((await set('colour-by', 'chargee')).message, /did you mean 'charge'/);
   assert.match((await set('radius', 'big')).message, /radius="big": expected a number from 0/);
   assert.match((await set('columns', 'x=q')).message, /q/);
   assert.match((await set('src', 'missing.pdb')).message, /missing\.pdb/);
@@ -226,8 +226,13 @@ test('wheel and swipe scroll the page, unless the viewer is active', async () =>
   const finger = (type, y) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: y === null ? [] : [{ x: 160, y }] });
   await finger('touchStart', 200);
   for (let y = 190; y >= 120; y -= 10) await finger('touchMove', y);
-  await finger('touchEnd', null);
+  // A finger that rests before it is lifted leaves no momentum.
   await page.waitForFunction(() => scrollY > 20);
+  await page.waitForTimeout(500);
+  await finger('touchMove', 120);
+  await page.waitForTimeout(300);
+  await finger('touchEnd', null);
+  await page.waitForTimeout(500);
   assert.deepEqual(await camera_of(page), start, 'and nothing turns');
   await home();
 
