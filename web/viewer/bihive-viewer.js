@@ -17,18 +17,20 @@ const look_of = (element) => {
   };
 };
 
-// Throws a message for people.
-const reading_of = (element) => {
+// {reading, fault}: a faulty radius leaves the one before, and `fault` says so to people.
+const reading_of = (element, before) => {
   const reading = {};
+  let fault;
   const radius = element.getAttribute('radius');
-  if (radius !== null) {
-    if (radius.trim() === '' || !(Number(radius) >= 0 && Number(radius) < Infinity))
-      throw new Error(`radius="${radius}": expected a number from 0`);
-    reading.radius = Number(radius);
+  const is_number = radius !== null && radius.trim() !== '' && Number(radius) >= 0 && Number(radius) < Infinity;
+  if (is_number) reading.radius = Number(radius);
+  else if (radius !== null) {
+    fault = `radius="${radius}": expected a number from 0`;
+    if (before.radius !== undefined) reading.radius = before.radius;
   }
   const columns = element.getAttribute('columns');
   if (columns !== null) reading.columns = columns;
-  return reading;
+  return { reading, fault };
 };
 
 const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
@@ -64,6 +66,7 @@ export class BihiveViewer extends HTMLElement {
   #shown = null; // what was asked of the frame last
   #opening = 0; // id of the load that is awaited
   #reads_again = false; // that load, the scene that is shown
+  #fault; // of an attribute: it is told once
   #refused = false; // the file that was opened last
   #camera = null;
   #wanted_camera = null; // until there is a scene
@@ -173,9 +176,12 @@ export class BihiveViewer extends HTMLElement {
     const now = {
       parts: { panel: this.hasAttribute('panel'), badge: this.hasAttribute('badge') },
       look: look_of(this),
-      ...this.#asked_reading(before),
+      ...reading_of(this, before?.reading ?? {}),
       place: this.#place(),
     };
+    const told = this.#fault;
+    this.#fault = now.fault;
+    if (now.fault && now.fault !== told) this.#tell('bihive-error', { message: now.fault });
     if (!same(now.parts, before?.parts)) this.#post({ bihive: 'parts', ...now.parts });
     if (now.place !== before?.place) {
       this.#shown = now;
@@ -196,16 +202,6 @@ export class BihiveViewer extends HTMLElement {
     this.#shown = now;
     const changes = Object.fromEntries(Object.entries(now.look).filter(([member, text]) => before.look[member] !== text));
     if (Object.keys(changes).length > 0) this.#post({ bihive: 'look', look: changes });
-  }
-
-  // A faulty attribute is told once, and changes nothing.
-  #asked_reading(before) {
-    try {
-      return { reading: reading_of(this) };
-    } catch ({ message }) {
-      if (before?.fault !== message) this.#tell('bihive-error', { message });
-      return { reading: before?.reading ?? {}, fault: message };
-    }
   }
 
   // What load() was given, or an address as a text; null: the bundled molecule.
