@@ -6,12 +6,14 @@ export type Told = { bihive: 'loaded'; name: string; format: string; spheres: nu
 
 const asked = new URLSearchParams(location.search).get('embed');
 
+export const is_embedded = asked !== null;
+
 /** Hides what belongs to a separate page; `?embed=panel` keeps the panel. */
 export function start_embedded(): void {
-  if (asked !== null) document.documentElement.classList.add(asked === 'panel' ? 'embedded' : 'embedded_alone');
+  if (is_embedded) document.documentElement.classList.add(asked === 'panel' ? 'embedded' : 'embedded_alone');
 }
 
 /** To a page of the same origin alone: names of files are private. */
 export function tell(told: Told): void {
-  if (asked !== null && parent !== window) parent.postMessage(told, location.origin);
+  if (is_embedded && parent !== window) parent.postMessage(told, location.origin);
 }

@@ -107,14 +107,22 @@ export class LookControls {
     element('look_names').textContent = facts.attributes.join(', ');
   }
 
-  /** The look of a newly loaded scene. */
-  show(look: Look, coloured_by: ColouredBy[]): void {
+  /** The look of a newly loaded scene, or one that is restored. `counts`: the rows' numbers of spheres, if known. */
+  show(look: Look, counts: number[] | null, coloured_by: ColouredBy[]): void {
     this.show_choices(look);
     this.of_all.show_ranges(coloured_by);
     this.rows = [];
     this.list.replaceChildren();
     for (const row of look.rows) this.add(row);
     this.sent = [...this.rows];
+    if (counts) this.show_counts(counts);
+  }
+
+  private show_counts(counts: number[]): void {
+    for (const [i, row] of this.sent.entries()) {
+      const count = counts[i] ?? 0;
+      row.say(count === 1 ? '1 sphere' : `${count.toLocaleString('en')} spheres`, false);
+    }
   }
 
   private show_choices(look: Look): void {
@@ -133,11 +141,7 @@ export class LookControls {
     if (coloured_by) this.of_all.show_ranges(coloured_by);
     if (fault) this.sent[fault.row]?.say(fault.message, true);
     // The rows in the answer may be older than those with a fault.
-    else if (JSON.stringify(this.sent.map(({ row }) => row)) === JSON.stringify(look.rows))
-      for (const [i, row] of this.sent.entries()) {
-        const count = counts[i] ?? 0;
-        row.say(count === 1 ? '1 sphere' : `${count.toLocaleString('en')} spheres`, false);
-      }
+    else if (JSON.stringify(this.sent.map(({ row }) => row)) === JSON.stringify(look.rows)) this.show_counts(counts);
   }
 
   private change_background(): void {

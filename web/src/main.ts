@@ -4,11 +4,13 @@ import { element, grouped } from './dom';
 import { Engine } from './engine';
 import { Figures, is_figure } from './figure';
 import type { NamedBlob } from './figure_protocol';
+import type { Past, Snapshot } from './history';
+import { Keeper, type Kept } from './kept';
 import { listen_for_keys } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
-import { start_embedded, tell } from './embedded';
-import { document_of, link_of, reading_of, state_from, state_of, type State } from './link';
+import { is_embedded, start_embedded, tell } from './embedded';
+import { document_of, has_state, link_of, reading_of, state_from, state_of, type State } from './link';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
 import { start_panel } from './panel';
@@ -24,6 +26,7 @@ import { describe_device } from './device';
 import { show_statistics } from './statistics';
 import { start_theme } from './theme';
 import { ThesisDialog } from './thesis';
+import { Undo } from './undo';
 
 const most_pixels = 2560 * 1600; // of a picture on the screen
 const finest_ratio = 2; // finer pixels of a phone are invisible
@@ -39,6 +42,7 @@ let facts: Facts | null = null;
 let gpu: GpuState = { name: '', here: false, software: false, why_not: '', description: '' };
 let serial = 0;
 let look_serial = 0;
+let look_answered = 0;
 let loading = 0; // id of the load that is awaited
 let first_frame = false; // of the newly loaded scene: it is awaited
 let chosen: OwnFiles | null = null; // the user's shown files
@@ -49,7 +53,8 @@ let asked_columns = ''; // of the load that is awaited
 let asked: Ask | null = null; // the user's own file that a link was made for
 let address_reading: Reading | undefined;
 let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
-const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean }>(); // loads by their ids: what holds once they are done
+// Loads by their ids: what holds once they are done. `past`: the scene's; 'same' after another reading of the shown one.
+const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean; past: Past | 'same' | null; undone: -1 | 1 | null }>();
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -57,6 +62,7 @@ const engine = new Engine(
   {
     ready: ({ version, threads, gpu: found, parameters }) => {
       controls.build(parameters);
+      undo.name_by(parameters);
       program_version = version;
       gpu = found;
       show_gpu();
@@ -83,7 +89,11 @@ const engine = new Engine(
       controls.show(answer.settings);
       look = answer.look;
       looks.show_facts(answer.facts);
-      looks.show(look, answer.coloured_by);
+      looks.show(look, answer.counts, answer.coloured_by);
+      look_answered = look_serial;
+      keeper?.show(source, chosen);
+      if (now?.past !== 'same') undo.begin(snapshot()!, now?.past ?? null);
+      else if (!now.undone) undo.act();
       for (const text of answer.notes) note(text, answer.id);
       const { name, format, spheres, frames } = answer.facts;
       tell({ bihive: 'loaded', name, format, spheres, frames });
@@ -93,6 +103,8 @@ const engine = new Engine(
       first_frame = false;
       saving.failed(id);
       const own = id === null ? null : (awaited.get(id)?.own ?? null);
+      const undone = id === null ? null : (awaited.get(id)?.undone ?? null);
+      if (undone) undo.take_back(undone);
       if (id !== null) awaited.delete(id);
       if (id === loading) {
         show_source(source);
@@ -116,12 +128,22 @@ const engine = new Engine(
     },
     look: (answer) => {
       look = answer.look;
+      look_answered = Math.max(look_answered, answer.serial);
       if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.coloured_by, answer.fault);
+    },
+    restored: (answer) => {
+      show_settings(answer.settings);
+      controls.show(answer.settings);
+      look = answer.look;
+      looks.show(look, answer.counts, answer.coloured_by ?? []);
+      for (const text of answer.notes) note(text);
     },
     frame: (answer) => {
       show_settings(answer.settings);
       if (answer.serial === serial) controls.show(answer.settings);
       show_engine(answer.settings.engine);
+      // Between two steps of a drag too, when all that was asked for is shown.
+      if (answer.serial === serial && look_answered === look_serial) undo.note(snapshot()!);
       show_frame(answer.report, answer.width_px, answer.height_px);
       if (first_frame && answer.report.drawn) busy(null);
       if (answer.report.drawn) first_frame = false;
@@ -153,16 +175,19 @@ const engine = new Engine(
 );
 
 function change(changes: Changes): void {
+  undo.act();
   engine.send({ type: 'set', serial: ++serial, changes });
 }
 
 function move_camera(move: Move): void {
   framed = move.kind === 'look_from' || move.kind === 'home';
-  engine.send({ type: 'move', move });
+  undo.act();
+  engine.send({ type: 'move', serial: ++serial, move });
 }
 
 const controls = new Controls({ change, move: move_camera });
 const looks = new LookControls((changes) => {
+  undo.act();
   picture.dataset['settled'] = 'false';
   engine.send({ type: 'look', serial: ++look_serial, changes });
 });
@@ -182,8 +207,13 @@ const thesis = new ThesisDialog({
   goes_on_from: (result) => result['engine'] === settings?.engine && result['version'] === program_version,
 });
 
+const keeper = is_embedded ? null : new Keeper();
+const undo = new Undo({ restore, changed: (past) => keeper?.keep(past) });
+
 let program_version = '';
 const device_json = () => describe_device(gpu.name, navigator.hardwareConcurrency, program_version);
+
+const snapshot = (): Snapshot | null => settings && look && { reading: source.reading ?? null, settings, look, framed };
 
 // Answers of the worker.
 
@@ -239,12 +269,16 @@ function show_frame(report: FrameReport, width: number, height: number): void {
 
 // Actions of the user.
 
-// `own`: files of the user's, so that they can be read again.
+type Wished = Omit<State, 'source'> & { framed?: boolean };
+
+// `own`: files of the user's, so that they can be read again. `past`, `undone`: as in `awaited`.
 async function open(
   what: Promise<Wanted>,
   name: string,
-  wanted: Omit<State, 'source'> | null = null,
+  wanted: Wished | null = null,
   own: OwnFiles | null = null,
+  past: Past | 'same' | null = null,
+  undone: -1 | 1 | null = null,
 ): Promise<void> {
   const id = (loading = engine.new_id());
   first_frame = false;
@@ -258,12 +292,13 @@ async function open(
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
     const blobs = files ? [files, ...(files.trajectory ? [files.trajectory] : [])] : [];
     const named = blobs.map(({ name, content }) => ({ name, content }));
-    awaited.set(id, { own, files: named, framed: !state.settings?.camera?.eye });
+    awaited.set(id, { own, files: named, framed: wanted?.framed ?? !state.settings?.camera?.eye, past, undone });
     asked_columns = String(from.reading?.columns ?? '');
     engine.send({ type: 'load', id, source: from, files, ...state });
   } catch (error) {
     busy(null);
     show_source(source);
+    if (undone) undo.take_back(undone);
     fail((error as Error).message);
     tell({ bihive: 'failed', message: (error as Error).message });
   }
@@ -320,9 +355,31 @@ function read_again(reading: Reading | undefined): void {
   if (!settings) return;
   const { fov_deg, projection, aperture, focus } = settings.camera;
   const camera = framed ? { fov_deg, projection, aperture, focus } : settings.camera;
-  const state = { settings: { ...settings, camera }, look };
-  if (chosen) void open(wanted_files(chosen, reading), chosen.file.name, state, chosen);
-  else void open(wanted_source(with_reading(source, reading)), name_of(source), state);
+  open_shown(reading, { settings: { ...settings, camera }, look }, 'same');
+}
+
+// The shown scene, with this state.
+function open_shown(reading: Reading | undefined, state: Wished, past: 'same', undone: -1 | 1 | null = null): void {
+  if (chosen) void open(wanted_files(chosen, reading), chosen.file.name, state, chosen, past, undone);
+  else void open(wanted_source(with_reading(source, reading)), name_of(source), state, null, past, undone);
+}
+
+// A state from the history of the shown scene.
+function restore(state: Snapshot, by: -1 | 1): void {
+  const reading = state.reading ?? undefined;
+  if (JSON.stringify(reading) !== JSON.stringify(source.reading)) return open_shown(reading, state, 'same', by);
+  framed = state.framed;
+  picture.dataset['settled'] = 'false';
+  look_answered = ++look_serial;
+  engine.send({ type: 'restore', serial: ++serial, settings: state.settings, look: state.look });
+}
+
+// What the tab showed before it was loaded again.
+function open_kept({ source: from, past, own }: Kept): Promise<void> {
+  const state = past.states[past.at]!;
+  const reading = state.reading ?? undefined;
+  if (own) return open(wanted_files(own, reading), own.file.name, state, own, past);
+  return open(wanted_source(with_reading(from, reading)), name_of(from), state, null, past);
 }
 
 function watch_size(): void {
@@ -353,16 +410,18 @@ async function copy_link(): Promise<void> {
   }
 }
 
-// The first input: the state in the address, the FILE of `bihive web FILE`, or the molecule.
-async function first_state(): Promise<State> {
-  const linked = state_of(location.hash);
-  if (linked) return linked;
-  const started = await fetch(new URL('start.json', document.baseURI))
+// The FILE of `bihive web FILE`, as the text of a state; empty: there is none, or the address has a state.
+async function started(): Promise<string> {
+  if (has_state(location.hash)) return '';
+  return fetch(new URL('start.json', document.baseURI))
     .then((response) => (response.ok ? response.text() : ''))
     .then(remember_start)
     .catch(remembered_start);
-  return state_from(document_of(started)) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 }
+
+// The first input: the state in the address, that FILE, or the molecule.
+const first_state = (start: string): State =>
+  state_of(location.hash) ?? state_from(document_of(start)) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 
 // The missing features of the browser, or nothing.
 function lacking(): string {
@@ -413,10 +472,10 @@ async function start(): Promise<void> {
   listen_for_launches((files) => void take_files(files));
   element('copy_link').addEventListener('click', () => void copy_link());
 
-  const open_state = async () => {
+  const open_state = async (start: string) => {
     try {
       address_reading = reading_of(location.search);
-      const state = await first_state();
+      const state = first_state(start);
       forget_asked();
       if ('file' in state.source) {
         // The camera of one file would be confusing for another.
@@ -429,8 +488,12 @@ async function start(): Promise<void> {
       await opened;
     }
   };
-  addEventListener('hashchange', () => void open_state());
-  await open_state();
+  addEventListener('hashchange', () => {
+    if (has_state(location.hash)) void open_state('');
+  });
+  const text = await started();
+  const kept = (await keeper?.open(text)) ?? null;
+  await (kept ? open_kept(kept) : open_state(text));
 }
 
 void start();

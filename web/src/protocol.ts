@@ -149,7 +149,8 @@ export type Request =
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
-  | { type: 'move'; move: Move }
+  | { type: 'move'; serial: number; move: Move }
+  | { type: 'restore'; serial: number; settings: Settings; look: Look } // of the same scene
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | { type: 'picture_cancel' }
   | { type: 'play'; action: PlayAction }
@@ -160,7 +161,8 @@ export type Request =
 /** Messages from the worker. `serial`: the last request included in these settings. */
 export type Answer =
   | { type: 'ready'; version: string; threads: number; gpu: GpuState; parameters: Parameter[] }
-  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; coloured_by: ColouredBy[]; notes: string[] }
+  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[]; notes: string[] }
+  | { type: 'restored'; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[] | null; notes: string[] }
   | { type: 'failed'; id: number | null; message: string }
   | { type: 'note'; message: string }
   | { type: 'gpu'; gpu: GpuState }

@@ -136,6 +136,11 @@ function apply_changes(): void {
   if ('max_prims' in changes || 'max_depth' in changes) statistics_wanted = true;
 }
 
+interface Looked {
+  counts: number[];
+  coloured_by: ColouredBy[];
+}
+
 // A fault of one row is shown below it; any other fault is an error of the page.
 function apply_look(): void {
   if (!wanted_look) return;
@@ -145,8 +150,7 @@ function apply_look(): void {
   let coloured_by: ColouredBy[] | null = null;
   let fault: BadInput | null = null;
   try {
-    const done = value_of<{ counts: number[]; coloured_by: ColouredBy[] }>(page.set_look(JSON.stringify(changes)));
-    ({ counts, coloured_by } = done);
+    ({ counts, coloured_by } = value_of<Looked>(page.set_look(JSON.stringify(changes))));
   } catch (error) {
     if (!(error instanceof BadInput)) throw error;
     fault = error;
@@ -248,13 +252,14 @@ interface Loaded {
 }
 
 // The look and the settings of a link, or of the scene. The engine is the user's choice: without one it stays.
-// Returns the colouring attributes, null without a requested look, and the messages of failures.
+// Returns the colouring attributes and the rows' numbers of spheres, null without a requested look, and the messages of
+// failures.
 function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   const notes: string[] = [];
-  let coloured_by: ColouredBy[] | null = null;
+  let looked: Looked | null = null;
   if (wanted) {
     try {
-      coloured_by = value_of<{ coloured_by: ColouredBy[] }>(page.set_look(JSON.stringify(wanted))).coloured_by;
+      looked = value_of<Looked>(page.set_look(JSON.stringify(wanted)));
     } catch (error) {
       notes.push(`The look does not fit this scene and was left out: ${(error as Error).message}`);
     }
@@ -269,12 +274,12 @@ function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
     }
   }
   try {
-    if (engine) value_of(page.set(JSON.stringify({ engine })));
-    value_of(page.set(JSON.stringify(others)));
+    value_of(page.set(JSON.stringify({ ...others, ...(engine && { engine }) })));
   } catch (error) {
     notes.push(`Some settings do not fit this scene and were left out: ${(error as Error).message}`);
+    if (engine) value_of(page.set(JSON.stringify({ engine })));
   }
-  return { notes, coloured_by };
+  return { notes, counts: looked?.counts ?? null, coloured_by: looked?.coloured_by ?? null };
 }
 
 async function load(request: Request & { type: 'load' }): Promise<void> {
@@ -301,8 +306,19 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   const chosen = choose(request.settings ?? {}, request.look);
   const coloured_by = chosen.coloured_by ?? loaded.coloured_by;
   const notes = [...loaded.facts.warnings, ...chosen.notes];
-  send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), coloured_by, notes });
+  send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), counts: chosen.counts, coloured_by, notes });
   send_player();
+  statistics_wanted = true;
+  ask_for_frame();
+}
+
+// Another state of the same scene. Requests before it are outdated.
+function restore(request: Request & { type: 'restore' }): void {
+  moves = [];
+  wanted_look = wanted_changes = null;
+  serial = request.serial;
+  const { notes, counts, coloured_by } = choose(request.settings, request.look);
+  send({ type: 'restored', settings: settings(), look: look(), counts, coloured_by, notes });
   statistics_wanted = true;
   ask_for_frame();
 }
@@ -443,11 +459,14 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       wanted_look = { ...wanted_look, ...request.changes };
       look_serial = request.serial;
       return ask_for_frame();
+    case 'restore':
+      return attempt(null, () => restore(request));
     case 'resize':
       size_px = { width: request.width_px, height: request.height_px };
       page.resize(size_px.width, size_px.height);
       return ask_for_frame();
     case 'move':
+      serial = request.serial;
       moves.push(request.move);
       return ask_for_frame();
     case 'play':
