@@ -6,7 +6,7 @@ import { Figures, is_figure } from './figure';
 import type { NamedBlob } from './figure_protocol';
 import type { Past, Snapshot } from './history';
 import { Keeper, type Kept } from './kept';
-import { listen_for_keys } from './keyboard';
+import { listen_for_keys, listen_for_zoom } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
 import { is_embedded, start_embedded, tell } from './embedded';
@@ -24,6 +24,7 @@ import {
 } from './sources';
 import { describe_device } from './device';
 import { show_statistics } from './statistics';
+import { load_style_pictures } from './style_tiles';
 import { start_theme } from './theme';
 import { ThesisDialog } from './thesis';
 import { Undo } from './undo';
@@ -60,9 +61,10 @@ let size = { width: 1, height: 1 };
 
 const engine = new Engine(
   {
-    ready: ({ version, threads, gpu: found, parameters }) => {
-      controls.build(parameters);
-      undo.name_by(parameters);
+    ready: ({ version, threads, gpu: found, choices }) => {
+      controls.build(choices.settings);
+      looks.build(choices);
+      undo.name_by(choices.settings);
       program_version = version;
       gpu = found;
       show_gpu();
@@ -145,7 +147,10 @@ const engine = new Engine(
       // Between two steps of a drag too, when all that was asked for is shown.
       if (answer.serial === serial && look_answered === look_serial) undo.note(snapshot()!);
       show_frame(answer.report, answer.width_px, answer.height_px);
-      if (first_frame && answer.report.drawn) busy(null);
+      if (first_frame && answer.report.drawn) {
+        busy(null);
+        load_style_pictures();
+      }
       if (answer.report.drawn) first_frame = false;
     },
     player: ({ player: state }) => player.show(state),
@@ -426,6 +431,7 @@ const first_state = (start: string): State =>
 // The missing features of the browser, or nothing.
 function lacking(): string {
   if (typeof WebAssembly === 'undefined') return 'WebAssembly';
+  if (!('Tag' in WebAssembly)) return 'exceptions of WebAssembly';
   const has_canvas = typeof OffscreenCanvas !== 'undefined' && 'transferControlToOffscreen' in HTMLCanvasElement.prototype;
   return has_canvas ? '' : 'OffscreenCanvas';
 }
@@ -437,7 +443,7 @@ async function start(): Promise<void> {
   keep_for_offline();
   const lack = lacking();
   if (lack !== '') {
-    fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`);
+    fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 95, Firefox 105, Safari 17 and newer ones have it.`);
     element('badge').hidden = true;
     picture.setAttribute('aria-label', 'No picture');
     element('panel').inert = true;
@@ -455,6 +461,7 @@ async function start(): Promise<void> {
   watch_size();
 
   listen_for_pointers(picture, () => scale, move_camera);
+  listen_for_zoom(() => size, move_camera);
   listen_for_keys({
     scale: () => scale,
     size: () => size,

@@ -160,7 +160,7 @@ export type Request =
 
 /** Messages from the worker. `serial`: the last request included in these settings. */
 export type Answer =
-  | { type: 'ready'; version: string; threads: number; gpu: GpuState; parameters: Parameter[] }
+  | { type: 'ready'; version: string; threads: number; gpu: GpuState; choices: Choices }
   | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[]; notes: string[] }
   | { type: 'restored'; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[] | null; notes: string[] }
   | { type: 'failed'; id: number | null; message: string }
@@ -179,6 +179,14 @@ export type Answer =
   | { type: 'shown_done'; cancelled: boolean; result: string }
   | { type: 'thesis_failed'; message: string }
   | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
+
+/** The library's own names. */
+export interface Choices {
+  styles: { name: string; description: string }[];
+  actions: string[];
+  materials: string[];
+  settings: Parameter[];
+}
 
 /** The available GPU. */
 export interface GpuState {

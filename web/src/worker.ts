@@ -1,10 +1,9 @@
 // The worker: the C++ module, the frame loop, and the answers to the page.
 import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
 import { GlCanvas } from './gl_canvas';
-import type { Parameter } from './parameter';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
+  Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
 } from './protocol';
 import { UserFiles } from './user_files';
 
@@ -434,8 +433,8 @@ async function start(request: Request & { type: 'start' }): Promise<void> {
   cpu_canvas = request.cpu_canvas;
   cpu_context = cpu_canvas.getContext('2d', { alpha: false })!;
   gl = new GlCanvas(module, request.gpu_canvas, { lost: on_lost, restored: on_restored });
-  const { settings: parameters } = JSON.parse(page.choices()) as { settings: Parameter[] };
-  send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state(''), parameters });
+  const choices = JSON.parse(page.choices()) as Choices;
+  send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state(''), choices });
 }
 
 let started: Promise<void> | null = null;
