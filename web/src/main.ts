@@ -9,7 +9,8 @@ import { Keeper, type Kept } from './kept';
 import { listen_for_keys, listen_for_zoom } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
-import { is_embedded, start_embedded, tell } from './embedded';
+import { has_host, is_embedded, start_embedded } from './embedded';
+import { Host } from './host';
 import { document_of, has_state, link_of, reading_of, state_from, state_of, type State } from './link';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
@@ -56,6 +57,7 @@ let address_reading: Reading | undefined;
 let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
 // Loads by their ids: what holds once they are done. `past`: the scene's; 'same' after another reading of the shown one.
 const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean; past: Past | 'same' | null; undone: -1 | 1 | null }>();
+const host = new Host();
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -97,8 +99,7 @@ const engine = new Engine(
       if (now?.past !== 'same') undo.begin(snapshot()!, now?.past ?? null);
       else if (!now.undone) undo.act();
       for (const text of answer.notes) note(text, answer.id);
-      const { name, format, spheres, frames } = answer.facts;
-      tell({ bihive: 'loaded', name, format, spheres, frames });
+      host.loaded(answer.id, answer.facts, answer.settings, answer.look);
     },
     failed: ({ id, message }) => {
       busy(null);
@@ -117,7 +118,7 @@ const engine = new Engine(
         }
       }
       fail(message);
-      tell({ bihive: 'failed', message });
+      host.failed(id, message);
     },
     note: ({ message }) => note(message),
     gpu: ({ gpu: found }) => {
@@ -132,6 +133,7 @@ const engine = new Engine(
       look = answer.look;
       look_answered = Math.max(look_answered, answer.serial);
       if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.coloured_by, answer.fault);
+      host.look_answered();
     },
     restored: (answer) => {
       show_settings(answer.settings);
@@ -156,7 +158,8 @@ const engine = new Engine(
     player: ({ player: state }) => player.show(state),
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
-    picture: ({ picture: file }) => saving.done(file, facts?.name ?? 'picture'),
+    picked: ({ id, picked }) => host.picked(id, picked),
+    picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => {
       if (settings) show_engine(settings.engine);
@@ -224,6 +227,7 @@ const snapshot = (): Snapshot | null => settings && look && { reading: source.re
 
 function show_settings(now: Settings): void {
   settings = now;
+  host.settings(now);
 }
 
 function show_engine(name: EngineName): void {
@@ -305,7 +309,7 @@ async function open(
     show_source(source);
     if (undone) undo.take_back(undone);
     fail((error as Error).message);
-    tell({ bihive: 'failed', message: (error as Error).message });
+    host.failed(id, (error as Error).message);
   }
 }
 
@@ -454,8 +458,9 @@ async function start(): Promise<void> {
   figures = new Figures({ base: document.baseURI, threads }, () => shown_files);
   const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
   busy('Starting');
+  const wasm = await host.begin(threads);
   engine.send(
-    { type: 'start', threads, base: document.baseURI, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
+    { type: 'start', threads, base: document.baseURI, embedded: is_embedded, wasm, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
     [...canvases],
   );
   watch_size();
@@ -495,6 +500,38 @@ async function start(): Promise<void> {
       await opened;
     }
   };
+  host.start({
+    open: ({ source: from, file, trajectory, look, camera }) => {
+      const state = { settings: camera && { camera }, look };
+      if (file) void open(wanted_files({ file, trajectory }, from.reading), file.name, state, { file, trajectory });
+      else void open_source(from, state);
+      return loading;
+    },
+    read_again: (reading) => {
+      read_again(reading);
+      return loading;
+    },
+    look: (changes) => {
+      picture.dataset['settled'] = 'false';
+      engine.send({ type: 'look', serial: ++look_serial, changes });
+    },
+    camera: (camera) => {
+      framed = false;
+      change({ camera });
+    },
+    pick: (x, y) => {
+      const id = engine.new_id();
+      engine.send({ type: 'pick', id, x_px: x * scale, y_px: y * scale });
+      return id;
+    },
+    draw: (width, height) => {
+      const id = engine.new_id();
+      engine.send({ type: 'picture', id, width_px: width ?? size.width, height_px: height ?? size.height });
+      return id;
+    },
+  });
+  if (has_host) return;
+
   addEventListener('hashchange', () => {
     if (has_state(location.hash)) void open_state('');
   });

@@ -142,15 +142,26 @@ export type Move =
   | { kind: 'look_from'; side: SideName }
   | { kind: 'home' };
 
+/** The sphere at a place of the picture (viewer/pick.h). */
+export interface Picked {
+  sphere: number; // its id in the shown set
+  point: [number, number, number]; // on its surface
+  distance: number; // from the eye
+  centre: [number, number, number];
+  radius: number;
+  attributes: Record<string, number | string | null>;
+}
+
 /** Messages to the worker. `id` is returned with the answer. */
 export type Request =
-  | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
+  | { type: 'start'; threads: boolean; base: string; embedded: boolean; wasm: WebAssembly.Module | null; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
   | { type: 'load'; id: number; source: Source; files: Files | null; settings: Changes | null; look: Partial<Look> | null }
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
   | { type: 'move'; serial: number; move: Move }
   | { type: 'restore'; serial: number; settings: Settings; look: Look } // of the same scene
+  | { type: 'pick'; id: number; x_px: number; y_px: number }
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | { type: 'picture_cancel' }
   | { type: 'play'; action: PlayAction }
@@ -171,6 +182,7 @@ export type Answer =
   | { type: 'frame'; report: FrameReport; serial: number; settings: Settings; width_px: number; height_px: number }
   | { type: 'player'; player: PlayerState }
   | { type: 'statistics'; json: string }
+  | { type: 'picked'; id: number; picked: Picked | null }
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }

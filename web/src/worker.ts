@@ -3,7 +3,7 @@ import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun
 import { GlCanvas } from './gl_canvas';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
+  Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
 } from './protocol';
 import { UserFiles } from './user_files';
 
@@ -322,6 +322,13 @@ function restore(request: Request & { type: 'restore' }): void {
   ask_for_frame();
 }
 
+// In the picture that was asked for last, although it may not be shown yet.
+async function pick({ id, x_px, y_px }: Request & { type: 'pick' }): Promise<void> {
+  if (!has_scene) return send({ type: 'picked', id, picked: null });
+  if (!saving) for (const apply of [apply_moves, apply_look, apply_changes]) await attempt(null, apply);
+  send({ type: 'picked', id, ...value_of<{ picked: Picked | null }>(page.pick(x_px, y_px)) });
+}
+
 // A picture to be saved. No frames are drawn meanwhile.
 async function picture(request: Request & { type: 'picture' }): Promise<void> {
   if (!has_scene || thesis || saving) throw new BadInput('There is no picture to be saved just now');
@@ -427,12 +434,13 @@ async function show_frames(seconds: number, device: string): Promise<void> {
 }
 
 async function start(request: Request & { type: 'start' }): Promise<void> {
-  module = await load_module(request.base, request.threads);
+  module = await load_module(request.base, request.threads, request.wasm);
   page = new module.Page();
+  if (request.embedded) page.let_page_through();
   user_files = new UserFiles(module);
   cpu_canvas = request.cpu_canvas;
-  cpu_context = cpu_canvas.getContext('2d', { alpha: false })!;
-  gl = new GlCanvas(module, request.gpu_canvas, { lost: on_lost, restored: on_restored });
+  cpu_context = cpu_canvas.getContext('2d', { alpha: request.embedded })!;
+  gl = new GlCanvas(module, request.gpu_canvas, request.embedded, { lost: on_lost, restored: on_restored });
   const choices = JSON.parse(page.choices()) as Choices;
   send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state(''), choices });
 }
@@ -471,6 +479,8 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
     case 'play':
       play(request.action);
       return ask_for_frame();
+    case 'pick':
+      return attempt(request.id, () => pick(request));
     case 'picture':
       return attempt(request.id, () => picture(request));
     case 'picture_cancel':
