@@ -6,6 +6,7 @@ import { Figures, is_figure } from './figure';
 import type { NamedBlob } from './figure_protocol';
 import type { Past, Snapshot } from './history';
 import { Keeper, type Kept } from './kept';
+import { Inspector } from './inspect';
 import { listen_for_keys, listen_for_zoom } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
@@ -58,6 +59,7 @@ let framed = true; // the camera was not moved since it showed the whole scene, 
 // Loads by their ids: what holds once they are done. `past`: the scene's; 'same' after another reading of the shown one.
 const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean; past: Past | 'same' | null; undone: -1 | 1 | null }>();
 const host = new Host();
+let shown_frame = 0;
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -93,6 +95,7 @@ const engine = new Engine(
       controls.show(answer.settings);
       look = answer.look;
       looks.show_facts(answer.facts);
+      inspector.begin(answer.facts.length_unit);
       looks.show(look, answer.counts, answer.coloured_by);
       look_answered = look_serial;
       keeper?.show(source, chosen);
@@ -146,6 +149,7 @@ const engine = new Engine(
       show_settings(answer.settings);
       if (answer.serial === serial) controls.show(answer.settings);
       show_engine(answer.settings.engine);
+      inspector.draw();
       // Between two steps of a drag too, when all that was asked for is shown.
       if (answer.serial === serial && look_answered === look_serial) undo.note(snapshot()!);
       show_frame(answer.report, answer.width_px, answer.height_px);
@@ -155,10 +159,15 @@ const engine = new Engine(
       }
       if (answer.report.drawn) first_frame = false;
     },
-    player: ({ player: state }) => player.show(state),
+    player: ({ player: state }) => {
+      player.show(state);
+      if (state.shown && state.frame !== shown_frame) inspector.moved();
+      if (state.shown) shown_frame = state.frame;
+    },
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
-    picked: ({ id, picked }) => host.picked(id, picked),
+    picked: ({ id, picked }) => inspector.picked(id, picked) || host.picked(id, picked),
+    described: ({ spheres }) => inspector.described(spheres),
     picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => {
@@ -187,6 +196,13 @@ function change(changes: Changes): void {
   engine.send({ type: 'set', serial: ++serial, changes });
 }
 
+// In pixels of the page; returns the id of the request.
+function pick(x: number, y: number): number {
+  const id = engine.new_id();
+  engine.send({ type: 'pick', id, x_px: x * scale, y_px: y * scale });
+  return id;
+}
+
 function move_camera(move: Move): void {
   framed = move.kind === 'look_from' || move.kind === 'home';
   undo.act();
@@ -206,6 +222,15 @@ const saving = new Saving({
     return id;
   },
   cancel: () => engine.send({ type: 'picture_cancel' }),
+});
+const inspector = new Inspector({
+  pick,
+  describe: (spheres) => engine.send({ type: 'describe', spheres }),
+  camera: () => settings?.camera ?? null,
+  look_at: (eye, look_at) => {
+    framed = false;
+    change({ camera: { eye: [...eye], look_at: [...look_at] } });
+  },
 });
 const player = new PlayerBar((action) => engine.send({ type: 'play', action }));
 const thesis = new ThesisDialog({
@@ -519,11 +544,7 @@ async function start(): Promise<void> {
       framed = false;
       change({ camera });
     },
-    pick: (x, y) => {
-      const id = engine.new_id();
-      engine.send({ type: 'pick', id, x_px: x * scale, y_px: y * scale });
-      return id;
-    },
+    pick,
     draw: (width, height) => {
       const id = engine.new_id();
       engine.send({ type: 'picture', id, width_px: width ?? size.width, height_px: height ?? size.height });

@@ -83,6 +83,7 @@ export interface Facts {
   has_cell: boolean;
   copies: [number, number, number]; // along the cell's vectors, as the input asks for
   attributes: string[];
+  length_unit: string; // empty: unknown
 }
 
 export interface FrameReport {
@@ -162,6 +163,7 @@ export type Request =
   | { type: 'move'; serial: number; move: Move }
   | { type: 'restore'; serial: number; settings: Settings; look: Look } // of the same scene
   | { type: 'pick'; id: number; x_px: number; y_px: number }
+  | { type: 'describe'; spheres: number[] } // by their ids
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | { type: 'picture_cancel' }
   | { type: 'play'; action: PlayAction }
@@ -183,6 +185,7 @@ export type Answer =
   | { type: 'player'; player: PlayerState }
   | { type: 'statistics'; json: string }
   | { type: 'picked'; id: number; picked: Picked | null }
+  | { type: 'described'; spheres: (Picked | null)[] }
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }

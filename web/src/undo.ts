@@ -2,6 +2,7 @@
 import { element } from './dom';
 import { History, type Past, type Snapshot } from './history';
 import type { Parameter } from './parameter';
+import { speak } from './messages';
 import { is_typing } from './typing';
 
 // Members without a control of the table.
@@ -80,7 +81,7 @@ export class Undo {
     if (!state) return;
     this.acted = false;
     this.show();
-    element('undo_words').textContent = `${by < 0 ? 'Undone' : 'Redone'}: ${what}`;
+    speak(`${by < 0 ? 'Undone' : 'Redone'}: ${what}`);
     this.actions.restore(state, by);
   }
 

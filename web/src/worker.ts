@@ -329,6 +329,12 @@ async function pick({ id, x_px, y_px }: Request & { type: 'pick' }): Promise<voi
   send({ type: 'picked', id, ...value_of<{ picked: Picked | null }>(page.pick(x_px, y_px)) });
 }
 
+// Of the frame that is shown.
+function describe({ spheres }: Request & { type: 'describe' }): void {
+  const of_one = (id: number) => value_of<{ picked: Picked | null }>(page.sphere(id)).picked;
+  send({ type: 'described', spheres: has_scene ? spheres.map(of_one) : spheres.map(() => null) });
+}
+
 // A picture to be saved. No frames are drawn meanwhile.
 async function picture(request: Request & { type: 'picture' }): Promise<void> {
   if (!has_scene || thesis || saving) throw new BadInput('There is no picture to be saved just now');
@@ -481,6 +487,8 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return ask_for_frame();
     case 'pick':
       return attempt(request.id, () => pick(request));
+    case 'describe':
+      return attempt(null, () => describe(request));
     case 'picture':
       return attempt(request.id, () => picture(request));
     case 'picture_cancel':
