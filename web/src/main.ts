@@ -431,11 +431,19 @@ function watch_size(): void {
   fit();
 }
 
+// A phone has a sheet of its own for links.
+const shares_links = 'share' in navigator && matchMedia('(pointer: coarse)').matches;
+
 async function copy_link(): Promise<void> {
   if (!settings) return;
   const link = link_of({ source, settings, look });
   history.replaceState(null, '', link);
   const words = 'file' in source ? `It asks for the file ${source.file}, which is not in it.` : '';
+  if (shares_links) {
+    // Closing the system's sheet is no fault.
+    await navigator.share({ title: document.title, url: link }).catch(() => {});
+    return;
+  }
   try {
     await navigator.clipboard.writeText(link);
     note(`The link is copied. ${words}`);
@@ -508,6 +516,7 @@ async function start(): Promise<void> {
   listen_for_reading(read_again);
   listen_for_launches((files) => void take_files(files));
   element('copy_link').addEventListener('click', () => void copy_link());
+  if (shares_links) element('copy_link').textContent = 'Share link';
 
   const open_state = async (start: string) => {
     try {
