@@ -1,11 +1,13 @@
-// The picture answers: names, pins, measures.
+// The picture answers: names, pins, measures; and it is taken along: sizes to save, the clipboard.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { devices } from 'playwright-core';
-import { and_settle, link_state, no_complaints, open_page, scratch, settled, shown_picture, small, with_page } from './page_kit.mjs';
+import {
+  and_settle, compare, link_state, no_complaints, open_page, saved_picture, scratch, settled, shown_picture, small, with_page,
+} from './page_kit.mjs';
 
 const kit = with_page();
 
@@ -151,6 +153,30 @@ test('on a phone a tap names, and a long press pins', async () => {
   await page.screenshot({ path: join(scratch, 'phone-pin.png') });
   await page.tap('#pins_clear');
   await pinned(page, 0);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('sizes for papers and slides, and a picture for the clipboard', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { ...small, permissions: ['clipboard-read', 'clipboard-write'] });
+  const size = async (words) => {
+    await page.selectOption('#save_size', words);
+    return [await page.inputValue('#save_width'), await page.inputValue('#save_height')].map(Number);
+  };
+  assert.deepEqual(await size('as on the screen'), [468, 240]);
+  assert.deepEqual(await size('4 × the screen'), [1872, 960]);
+  assert.deepEqual(await size('slide'), [1920, 1080]);
+  assert.deepEqual(await size('two columns, 17.8 cm at 300 dpi'), [2102, 1078]);
+  const saved = await saved_picture(page, 120, 80);
+  assert.equal(await page.$eval('#save_size', (select) => select.selectedOptions[0].textContent), 'other');
+  await page.click('#save_copy');
+  await page.waitForFunction(() => document.getElementById('messages').textContent.includes('is copied'));
+  const copied = await page.evaluate(async () => {
+    const [item] = await navigator.clipboard.read();
+    const bytes = new Uint8Array(await (await item.getType('image/png')).arrayBuffer());
+    return btoa(String.fromCharCode(...bytes));
+  });
+  assert.deepEqual(await compare(page, saved, Buffer.from(copied, 'base64'), 0), { width: 120, height: 80, share: 0 });
   no_complaints(complaints);
   await context.close();
 });
