@@ -303,13 +303,13 @@ function show_frame(report: FrameReport, width: number, height: number): void {
 
 // Actions of the user.
 
-type Wished = Omit<State, 'source'> & { framed?: boolean };
+type AskedState = Omit<State, 'source'> & { framed?: boolean };
 
 // `own`: files of the user's, so that they can be read again. `past`, `undone`: as in `awaited`.
 async function open(
   what: Promise<Wanted>,
   name: string,
-  wanted: Wished | null = null,
+  wanted: AskedState | null = null,
   own: OwnFiles | null = null,
   past: Past | 'same' | null = null,
   undone: -1 | 1 | null = null,
@@ -393,7 +393,7 @@ function read_again(reading: Reading | undefined): void {
 }
 
 // The shown scene, with this state.
-function open_shown(reading: Reading | undefined, state: Wished, past: 'same', undone: -1 | 1 | null = null): void {
+function open_shown(reading: Reading | undefined, state: AskedState, past: 'same', undone: -1 | 1 | null = null): void {
   if (chosen) void open(wanted_files(chosen, reading), chosen.file.name, state, chosen, past, undone);
   else void open(wanted_source(with_reading(source, reading)), name_of(source), state, null, past, undone);
 }
