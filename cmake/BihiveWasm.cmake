@@ -1,11 +1,12 @@
 # Compile and link options of WebAssembly.
 
-# Exceptions: the header-only libraries throw, and the library turns that into errors. They are WebAssembly's own: those
-# by way of JavaScript make the module a sixth larger, and each call that may throw slower. These and SIMD every browser
-# of the last years has. Threads are workers with shared memory; a page has them only if its server sends certain headers.
+# Exceptions: the header-only libraries throw, and the library turns that into errors. WebAssembly's own (-fwasm-exceptions)
+# make objects a seventh smaller, but Debian 12's Binaryen cannot parse the linked module ("attempted pop from empty
+# stack"). SIMD: every browser of the last years has it. Threads are workers with shared memory; a page has them only if
+# its server sends certain headers.
 option(BIHIVE_WASM_THREADS "Build WebAssembly for several threads" ON)
-add_compile_options(-fwasm-exceptions -msimd128)
-add_link_options(-fwasm-exceptions)
+add_compile_options(-fexceptions -msimd128)
+add_link_options(-fexceptions)
 if(BIHIVE_WASM_THREADS)
   add_compile_options(-pthread)
   add_link_options(-pthread)

@@ -468,7 +468,6 @@ const first_state = (start: string): State =>
 // The missing features of the browser, or nothing.
 function lacking(): string {
   if (typeof WebAssembly === 'undefined') return 'WebAssembly';
-  if (!('Tag' in WebAssembly)) return 'exceptions of WebAssembly';
   const has_canvas = typeof OffscreenCanvas !== 'undefined' && 'transferControlToOffscreen' in HTMLCanvasElement.prototype;
   return has_canvas ? '' : 'OffscreenCanvas';
 }
@@ -480,7 +479,7 @@ async function start(): Promise<void> {
   keep_for_offline();
   const lack = lacking();
   if (lack !== '') {
-    fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 95, Firefox 105, Safari 17 and newer ones have it.`);
+    fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`);
     element('badge').hidden = true;
     picture.setAttribute('aria-label', 'No picture');
     element('panel').inert = true;
