@@ -75,7 +75,8 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
                    {"has_elements", facts->has_elements},
                    {"has_cell", facts->has_cell},
                    {"copies", facts->copies},
-                   {"attributes", facts->attributes}};
+                   {"attributes", facts->attributes},
+                   {"length_unit", viewer_.scene().length_unit}};
   json["settings"] = *json_from_text<ordered_json>(settings());
   json["look"] = *json_from_text<ordered_json>(look());
   json["coloured_by"] = coloured_by_json(viewer_.scene());
@@ -265,6 +266,18 @@ std::string Page::pick(double x_px, double y_px) const {
   });
 }
 
+std::string Page::sphere(double id) const {
+  return with_memory([&] {
+    const SphereSet& spheres = viewer_.scene().spheres;
+    ordered_json json;
+    if (id >= 0 && id < double(spheres.size())) {
+      const auto sphere = static_cast<std::int64_t>(id);
+      json = *json_from_text<ordered_json>(picked_to_json({sphere, spheres.centre(sphere)}, viewer_.scene()));
+    }
+    return text_of({{"picked", json}});
+  });
+}
+
 emscripten::val Page::pixels() const {
   return emscripten::val(emscripten::typed_memory_view(pixels_.size(), pixels_.data()));
 }
@@ -328,6 +341,7 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("pixels", &Page::pixels)
       .function("let_page_through", &Page::let_page_through)
       .function("pick", &Page::pick)
+      .function("sphere", &Page::sphere)
       .function("show", &Page::show)
       .function("begin_picture", &Page::begin_picture)
       .function("step_picture", &Page::step_picture)

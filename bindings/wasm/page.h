@@ -83,6 +83,8 @@ class Page {
   void let_page_through() { viewer_.show_checks(false); }
   /// The sphere under (x, y): {"picked": as viewer/pick.h, or null}.
   std::string pick(double x_px, double y_px) const;
+  /// The same of a sphere by its id, at its centre.
+  std::string sphere(double id) const;
   std::string statistics() const { return viewer_.statistics_json(); }
 
   // A picture to be saved, one step for each call. frame() and set() drop it.

@@ -83,6 +83,7 @@ export interface Facts {
   has_cell: boolean;
   copies: [number, number, number]; // along the cell's vectors, as the input asks for
   attributes: string[];
+  length_unit: string; // empty: unknown
 }
 
 export interface FrameReport {
@@ -159,8 +160,10 @@ export type Request =
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
-  | { type: 'move'; move: Move }
+  | { type: 'move'; serial: number; move: Move }
+  | { type: 'restore'; serial: number; settings: Settings; look: Look } // of the same scene
   | { type: 'pick'; id: number; x_px: number; y_px: number }
+  | { type: 'describe'; spheres: number[] } // by their ids
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | { type: 'picture_cancel' }
   | { type: 'play'; action: PlayAction }
@@ -170,8 +173,9 @@ export type Request =
 
 /** Messages from the worker. `serial`: the last request included in these settings. */
 export type Answer =
-  | { type: 'ready'; version: string; threads: number; gpu: GpuState; parameters: Parameter[] }
-  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; coloured_by: ColouredBy[]; notes: string[] }
+  | { type: 'ready'; version: string; threads: number; gpu: GpuState; choices: Choices }
+  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[]; notes: string[] }
+  | { type: 'restored'; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[] | null; notes: string[] }
   | { type: 'failed'; id: number | null; message: string }
   | { type: 'note'; message: string }
   | { type: 'gpu'; gpu: GpuState }
@@ -181,6 +185,7 @@ export type Answer =
   | { type: 'player'; player: PlayerState }
   | { type: 'statistics'; json: string }
   | { type: 'picked'; id: number; picked: Picked | null }
+  | { type: 'described'; spheres: (Picked | null)[] }
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }
@@ -189,6 +194,14 @@ export type Answer =
   | { type: 'shown_done'; cancelled: boolean; result: string }
   | { type: 'thesis_failed'; message: string }
   | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
+
+/** The library's own names. */
+export interface Choices {
+  styles: { name: string; description: string }[];
+  actions: string[];
+  materials: string[];
+  settings: Parameter[];
+}
 
 /** The available GPU. */
 export interface GpuState {

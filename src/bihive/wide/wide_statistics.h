@@ -31,7 +31,7 @@ struct WideStatistics {
 
   std::int64_t node_bytes = 0;       ///< kWidth boxes and links each
   std::int64_t sphere_bytes = 0;     ///< with their padding
-  std::int64_t other_bytes = 0;      ///< repeated spheres and the tree itself
+  std::int64_t other_bytes = 0;      ///< repeated spheres, the outer tree, and the tree itself
   std::int64_t used_bytes = 0;       ///< the sum: WideTree::used_bytes()
   std::int64_t allocated_bytes = 0;  ///< WideTree::allocated_bytes()
 };

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "bihive/base/aligned_buffer.h"
@@ -84,6 +85,12 @@ struct Pile {
   std::size_t first_other, end_of_others;  ///< the others, in WideTree::others_in_piles
 };
 
+/// A ball inside a sphere, around its centre, that holds enclosed spheres (WideTree::outer).
+struct Core {
+  Vec3d centre;
+  double radius;
+};
+
 /// Immutable while anybody traces it: made by WideBuilder (wide/wide_builder.h) and handed out as
 /// std::shared_ptr<const WideTree>. An empty set has no nodes. Otherwise nodes[0] is the root, even of a single sphere.
 struct WideTree {
@@ -107,6 +114,12 @@ struct WideTree {
   std::vector<Pile> piles;  ///< duplicates, by ascending ids; closest and any hit ignore them
   std::vector<std::uint32_t> others_in_piles;
 
+  /// Where many spheres lie wholly inside others, as shells around one centre do: the tree of all that do not. Closest
+  /// and any hit ask it first. Only a ray that comes to a core before its hit asks this tree, which has all spheres.
+  /// Null: there are no such spheres, or too few.
+  std::shared_ptr<const WideTree> outer;
+  std::vector<Core> cores;  ///< together they hold every sphere that `outer` leaves out
+
   AlignedBuffer node_memory, sphere_memory;  ///< memory of the arrays above
 
   Vec3d stored(Vec3d world) const { return (world - origin) * scale; }
@@ -121,8 +134,8 @@ struct WideTree {
   /// the tree must outlive the image. Spheres of an image must not coincide if rays leave them.
   WideTree image(Vec3d by) const;
 
-  /// Bytes in use: nodes, spheres with their padding, repeated spheres, duplicates, and this structure. All that
-  /// tracing touches.
+  /// Bytes in use: nodes, spheres with their padding, repeated spheres, duplicates, the outer tree and its cores, and
+  /// this structure. All that tracing touches.
   std::int64_t used_bytes() const;
   /// Bytes held, with the reserve for a rebuild.
   std::int64_t allocated_bytes() const;

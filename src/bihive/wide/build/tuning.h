@@ -1,6 +1,7 @@
 // Tuning constants of the builder. They change the tree, and the speed of the build or of rays, but never an answer.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "bihive/wide/wide_tree.h"
@@ -37,5 +38,18 @@ constexpr int kInterpolations = 4;
 
 /// In this many last levels, children are chosen by count instead of cost, so that the levels suffice for any set.
 constexpr int kLevelsByCost = 40;
+
+// ---- Spheres wholly inside others ----
+
+/// A line through a sphere must cross this many of the spheres inside it, on average, for rays to leave them out: two
+/// leaves of them.
+constexpr std::int64_t kFewestCrossed = 32;
+/// Every ray is compared with every core.
+constexpr std::size_t kMostCores = 16;
+/// Only a node with sides of at most this many diameters of a sphere is searched for spheres inside that one.
+constexpr double kSidesOfCover = 1.25;
+/// Enclosed spheres lie this far below the surface, in stored units: deeper than the origins of rays that exit the
+/// surface, which binary32 rounds.
+constexpr double kDepthOfEnclosed = 0x1p-21;
 
 }  // namespace bihive

@@ -13,6 +13,7 @@
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/build/collapse.h"
 #include "bihive/wide/build/count_limit.h"
+#include "bihive/wide/build/enclosed.h"
 #include "bihive/wide/build/repeated.h"
 #include "bihive/wide/build/split.h"
 #include "bihive/wide/build/tuning.h"
@@ -89,6 +90,9 @@ struct WideBuilder::State {
                                       std::int64_t most_spheres, BinaryNode& root);
   void build_all(const SphereSet& spheres, const WideParameters& parameters, int threads, std::int64_t most_ids,
                  WideTree& tree);
+  void build_part(const SphereSet& spheres, const std::vector<std::int64_t>& ids, const WideParameters& parameters,
+                  int threads, WideTree& tree);
+  void build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
   void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
 };
 
@@ -277,10 +281,23 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   std::copy(context.palette, context.palette + 32, result.palette.begin());
 }
 
+// Builds the tree of some spheres, ascending, under the ids of the whole set.
+void WideBuilder::State::build_part(const SphereSet& spheres, const std::vector<std::int64_t>& ids,
+                                    const WideParameters& parameters, int threads, WideTree& tree) {
+  build_all(spheres.part(ids), parameters, threads, spheres.size(), tree);
+  const SphereArrays arrays = place_arrays(tree.placed, tree.spheres.has_palette, tree.sphere_memory);
+  const std::uint32_t mask = tree.spheres.id_mask();
+  for (std::int64_t slot = 0; slot < tree.placed; ++slot) {
+    std::uint32_t& word = arrays.word[slot];
+    word = (word & ~mask) | static_cast<std::uint32_t>(ids[word & mask]);
+  }
+  tree.size = spheres.size();
+}
+
 // Spheres that no plane separates lie in one leaf, and a ray would test all of them. So if more than a leaf's spheres
 // are equal, the tree is built again with only the first of them.
-void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
-                               WideTree& tree) {
+void WideBuilder::State::build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                                              WideTree& tree) {
   build_all(spheres, parameters, threads, spheres.size(), tree);
   find_piles(tree.repeated, tree.piles, tree.others_in_piles);
   if (tree.piles.empty()) return;
@@ -302,19 +319,26 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
   // The new nodes are fewer, so the memory of the old ones is released first.
   collapse = Collapse();
   tree.node_memory = AlignedBuffer();
-  build_all(spheres.part(kept), parameters, threads, spheres.size(), tree);
+  build_part(spheres, kept, parameters, threads, tree);
 
-  // Restore the spheres' own ids, and the tree's facts about all spheres.
-  const SphereArrays arrays = place_arrays(tree.placed, tree.spheres.has_palette, tree.sphere_memory);
-  const std::uint32_t mask = tree.spheres.id_mask();
-  for (std::int64_t slot = 0; slot < tree.placed; ++slot) {
-    std::uint32_t& word = arrays.word[slot];
-    word = (word & ~mask) | static_cast<std::uint32_t>(kept[word & mask]);
-  }
-  tree.size = spheres.size();
+  // Restore the tree's facts about all spheres.
   tree.piles = std::move(piles);
   tree.others_in_piles = std::move(others);
   tree.repeated = std::move(repeated);
+}
+
+void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                               WideTree& tree) {
+  tree.outer = nullptr;
+  tree.cores.clear();
+  build_without_others(spheres, parameters, threads, tree);
+  EnclosedSpheres enclosed = find_enclosed(tree);
+  if (enclosed.cores.empty()) return;
+  const auto outer = std::make_shared<WideTree>();
+  build_part(spheres, enclosed.not_ids, parameters, threads, *outer);
+  outer->repeated = tree.repeated;  // a ray may exit an equal of an outer sphere
+  tree.outer = outer;
+  tree.cores = std::move(enclosed.cores);
 }
 
 WideBuilder::WideBuilder() : state_(std::make_shared<State>()) {}

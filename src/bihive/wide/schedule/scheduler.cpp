@@ -9,7 +9,8 @@
 //                          else lists
 //   all hits       beams -> the remaining ones, by the sphere that they exit: beams -> the rest: scalar traversal
 //
-// Lists answer all rays that beams do not take at all (beams_take()).
+// Lists answer all rays that beams do not take at all (beams_take()). Where spheres lie inside others, closest and any
+// hit ask the outer tree first, and the whole tree for rays that may reach a core (wide/schedule/core_rays.h).
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,7 @@
 
 #include "bihive/wide/queries.h"
 #include "bihive/wide/schedule/cell_order.h"
+#include "bihive/wide/schedule/core_rays.h"
 #include "bihive/wide/schedule/light_order.h"
 #include "bihive/wide/schedule/reordered_batch.h"
 #include "bihive/wide/schedule/tuning.h"
@@ -36,7 +38,7 @@ namespace {
 struct Memory {
   CellOrder by_cell;
   LightOrder by_light;
-  ReorderedBatch sorted, remaining_of_blocks, remaining_of_sorted;
+  ReorderedBatch sorted, remaining_of_blocks, remaining_of_sorted, to_cores;
 };
 
 Memory& memory_of_this_thread() {
@@ -124,6 +126,29 @@ void closest_hits_in_blocks(const WideTree& tree, const RaySpan& rays, const Hit
       });
 }
 
+void closest_hits_of_tree(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
+  if (order == RayOrder::blocks) {
+    closest_hits_in_blocks(tree, rays, hits);
+  } else {
+    closest_hits_in_any_order(tree, rays, hits);
+  }
+}
+
+// The answers of the outer tree become those of the whole tree.
+void closest_hits_in_cores(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
+  ReorderedBatch& batch = memory_of_this_thread().to_cores;
+  for_remaining(
+      rays, rays_to_cores(tree, rays, hits.t, nullptr), batch,
+      [&](std::int64_t first, std::int64_t count) {
+        closest_hits_of_tree(tree, rays.part(first, count), order, hits.part(first));
+      },
+      [&] {
+        const RaySpan some = batch.rays();
+        closest_hits_of_tree(tree, some, order, batch.hits(some.count));
+        batch.put_back(0, some.count, hits);
+      });
+}
+
 // ---- Any hit ----
 
 using Occluded = void (*)(const WideTree&, const RaySpan&, std::uint8_t*);
@@ -192,6 +217,14 @@ void occluded_in_blocks(const WideTree& tree, const RaySpan& rays, std::uint8_t*
   const RemainingRays remaining = occluded_by_beams(tree, rays, hidden);
   if (remaining.count() == 0) return;
   occluded_remaining(tree, rays, remaining, memory_of_this_thread().remaining_of_blocks, occluded_in_any_order, hidden);
+}
+
+void occluded_of_tree(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) {
+  if (order == RayOrder::blocks) {
+    occluded_in_blocks(tree, rays, hidden);
+  } else {
+    occluded_in_any_order(tree, rays, hidden);
+  }
 }
 
 // ---- All hits ----
@@ -281,27 +314,32 @@ void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hi
 }
 
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
-  if (order == RayOrder::blocks) {
-    wide::closest_hits_in_blocks(tree, rays, hits);
-  } else {
-    wide::closest_hits_in_any_order(tree, rays, hits);
-  }
+  if (tree.outer == nullptr) return wide::closest_hits_of_tree(tree, rays, order, hits);
+  wide::closest_hits_of_tree(*tree.outer, rays, order, hits);
+  wide::closest_hits_in_cores(tree, rays, order, hits);
 }
 
 void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) {
-  if (order == RayOrder::blocks) {
-    wide::occluded_in_blocks(tree, rays, hidden);
-  } else {
-    wide::occluded_in_any_order(tree, rays, hidden);
-  }
+  if (tree.outer == nullptr) return wide::occluded_of_tree(tree, rays, order, hidden);
+  wide::occluded_of_tree(*tree.outer, rays, order, hidden);
+  wide::occluded_remaining(
+      tree, rays, wide::rays_to_cores(tree, rays, nullptr, hidden), wide::memory_of_this_thread().to_cores,
+      [](const WideTree& whole, const RaySpan& some, std::uint8_t* of_some) {
+        wide::occluded_in_any_order(whole, some, of_some);
+      },
+      hidden);
 }
 
 Hit closest_hit(const WideTree& tree, const Ray& ray) {
-  return wide::closest_hit_of_ray(tree, ray);
+  if (tree.outer == nullptr) return wide::closest_hit_of_ray(tree, ray);
+  const Hit hit = wide::closest_hit_of_ray(*tree.outer, ray);
+  return wide::may_reach_core(tree, ray, hit.t) ? wide::closest_hit_of_ray(tree, ray) : hit;
 }
 
 bool occluded(const WideTree& tree, const Ray& ray) {
-  return wide::ray_occluded(tree, ray);
+  if (tree.outer == nullptr) return wide::ray_occluded(tree, ray);
+  return wide::ray_occluded(*tree.outer, ray) ||
+         (wide::may_reach_core(tree, ray, ray.t_max) && wide::ray_occluded(tree, ray));
 }
 
 }  // namespace bihive
