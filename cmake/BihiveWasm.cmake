@@ -1,7 +1,9 @@
 # Compile and link options of WebAssembly.
 
-# Exceptions: the header-only libraries throw, and the library turns that into errors. SIMD: every browser of the last
-# years has it. Threads are workers with shared memory; a page has them only if its server sends certain headers.
+# Exceptions: the header-only libraries throw, and the library turns that into errors. WebAssembly's own (-fwasm-exceptions)
+# make objects a seventh smaller, but Debian 12's Binaryen cannot parse the linked module ("attempted pop from empty
+# stack"). SIMD: every browser of the last years has it. Threads are workers with shared memory; a page has them only if
+# its server sends certain headers.
 option(BIHIVE_WASM_THREADS "Build WebAssembly for several threads" ON)
 add_compile_options(-fexceptions -msimd128)
 add_link_options(-fexceptions)

@@ -20,6 +20,7 @@
 #include "bihive/scene/names.h"
 #include "bihive/scene/style.h"
 #include "bihive/viewer/load_file.h"
+#include "bihive/viewer/pick.h"
 #include "bihive/viewer/viewer_json.h"
 #include "control_names.h"
 
@@ -74,7 +75,8 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
                    {"has_elements", facts->has_elements},
                    {"has_cell", facts->has_cell},
                    {"copies", facts->copies},
-                   {"attributes", facts->attributes}};
+                   {"attributes", facts->attributes},
+                   {"length_unit", viewer_.scene().length_unit}};
   json["settings"] = *json_from_text<ordered_json>(settings());
   json["look"] = *json_from_text<ordered_json>(look());
   json["coloured_by"] = coloured_by_json(viewer_.scene());
@@ -249,7 +251,31 @@ std::string Page::frame(double budget_ms) {
 std::string Page::take_image() {
   const Image& image = viewer_.image();
   pixels_ = pixels_of(image);
+  const std::vector<std::uint8_t>& opacity = viewer_.opacity();
+  for (std::size_t i = 0; i < opacity.size(); ++i) pixels_[4 * i + 3] = opacity[i];
   return text_of({{"width", image.width}, {"height", image.height}});
+}
+
+std::string Page::pick(double x_px, double y_px) const {
+  return with_memory([&] {
+    const Result<std::optional<Picked>> picked = viewer_.pick(x_px, y_px);
+    if (!picked) return failure(picked.error());
+    ordered_json json;
+    if (*picked) json = *json_from_text<ordered_json>(picked_to_json(**picked, viewer_.scene()));
+    return text_of({{"picked", json}});
+  });
+}
+
+std::string Page::sphere(double id) const {
+  return with_memory([&] {
+    const SphereSet& spheres = viewer_.scene().spheres;
+    ordered_json json;
+    if (id >= 0 && id < double(spheres.size())) {
+      const auto sphere = static_cast<std::int64_t>(id);
+      json = *json_from_text<ordered_json>(picked_to_json({sphere, spheres.centre(sphere)}, viewer_.scene()));
+    }
+    return text_of({{"picked", json}});
+  });
 }
 
 emscripten::val Page::pixels() const {
@@ -313,6 +339,9 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("frame", &Page::frame)
       .function("take_image", &Page::take_image)
       .function("pixels", &Page::pixels)
+      .function("let_page_through", &Page::let_page_through)
+      .function("pick", &Page::pick)
+      .function("sphere", &Page::sphere)
       .function("show", &Page::show)
       .function("begin_picture", &Page::begin_picture)
       .function("step_picture", &Page::step_picture)

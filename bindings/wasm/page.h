@@ -79,6 +79,12 @@ class Page {
   emscripten::val pixels() const;
   /// The GPU engine's, into the whole canvas.
   void show(int width_px, int height_px);
+  /// Before the first frame: a transparent background is left transparent, instead of grey checks.
+  void let_page_through() { viewer_.show_checks(false); }
+  /// The sphere under (x, y): {"picked": as viewer/pick.h, or null}.
+  std::string pick(double x_px, double y_px) const;
+  /// The same of a sphere by its id, at its centre.
+  std::string sphere(double id) const;
   std::string statistics() const { return viewer_.statistics_json(); }
 
   // A picture to be saved, one step for each call. frame() and set() drop it.

@@ -34,6 +34,7 @@ TEST(Style, the_shipped_ones_are_valid_and_say_what_they_are) {
   const Result<Style> unknown = style_named("pretty");
   ASSERT_FALSE(unknown);
   EXPECT_THAT(unknown.error().to_string(), HasSubstr("there is no style \"pretty\""));
+  EXPECT_THAT(style_named("ilustrative").error().hint, HasSubstr("did you mean \"illustrative\"?"));
   EXPECT_THAT(unknown.error().hint, HasSubstr("default, plain, illustrative"));
 }
 

@@ -123,6 +123,13 @@ TEST(ViewerJson, values_of_the_scene_are_not_the_users) {
   EXPECT_TRUE(back->picture.user.has("light_points")) << "also where it is as the scene has it";
   EXPECT_FALSE(back->picture.user.has("fog"));
   EXPECT_FALSE(back->picture.result().fog.has_value());
+  // A state that is restored takes back what was set after it.
+  ViewerSettings later = settings;
+  later.picture.user.set("shadows", true);
+  const Result<ViewerSettings> restored = settings_from_json(json, later);
+  ASSERT_TRUE(restored);
+  EXPECT_FALSE(restored->picture.user.has("shadows"));
+  EXPECT_TRUE(restored->picture.user.has("light_points"));
   // A change without the list is the user's.
   EXPECT_TRUE(settings_from_json(R"({"fog": 0.5})", settings)->picture.user.has("fog"));
 }

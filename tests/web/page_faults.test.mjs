@@ -92,7 +92,7 @@ for (const [width, height] of sizes)
     // Tab goes to every control once; each is seen while it has the focus.
     const wanted = await page.$$eval('#panel_body :is(input, select, button, summary)', (all) =>
       all.filter((one) => !one.disabled && one.getClientRects().length > 0).length);
-    await page.focus(width <= 760 ? '#panel_toggle' : '#built_in');
+    await page.focus('#redo');
     let seen = 0;
     for (let i = 0; i < wanted + 3; ++i) {
       await page.keyboard.press('Tab');
@@ -116,6 +116,67 @@ for (const [width, height] of sizes)
     no_complaints(complaints);
     await context.close();
   });
+
+// The sheet of a phone once covered the molecule that its user was changing.
+test('the scene is in what the controls leave free', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 360, height: 740 } });
+  const free = () =>
+    page.evaluate(() => {
+      const [picture, panel] = ['picture', 'panel'].map((id) => document.getElementById(id).getBoundingClientRect());
+      return [picture.height, panel.top - picture.bottom, picture.width].map(Math.round);
+    });
+  assert.deepEqual(await free(), [682, 0, 360]);
+  await open_panel(page);
+  await settled(page);
+  const [height, gap] = await free();
+  assert.ok(height > 300 && gap === 0, `${height} pixels above the sheet`);
+  assert.match(await page.textContent('#badge_frame'), new RegExp(`360 × ${height}$`), 'the picture is of that size');
+  await page.click('#panel_tall');
+  assert.ok((await page.locator('#panel').boundingBox()).height > 700);
+  await page.click('#panel_tall');
+  await page.click('#panel_toggle');
+  await sheet_still(page);
+  await settled(page);
+  assert.deepEqual(await free(), [682, 0, 360]);
+
+  await page.setViewportSize({ width: 1000, height: 600 });
+  await settled(page);
+  assert.equal((await free())[2], 668);
+  await and_settle(page, () => page.click('#panel_toggle'));
+  assert.equal((await free())[2], 1000, 'folded at the side of a wide window');
+  assert.ok(await page.isVisible('#undo'));
+  await and_settle(page, () => page.click('#panel_toggle'));
+  assert.equal((await free())[2], 668);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('buttons come closer, and single keys can be switched off', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url, small);
+  const eye = async () => (await link_state(page)).settings.camera.eye;
+  const away = async () => Math.hypot(...(await eye()));
+  const first = await eye();
+  const far = await away();
+  await and_settle(page, () => page.click('#zoom_in'));
+  assert.ok((await away()) < far);
+  await and_settle(page, () => page.click('#zoom_all'));
+  assert.deepEqual(await eye(), first);
+  await page.locator('#single_keys').uncheck();
+  await page.focus('#picture');
+  for (const key of ['4', 'e', '+']) await page.keyboard.press(key);
+  await page.waitForTimeout(300);
+  const { settings } = await link_state(page);
+  assert.deepEqual([settings.view, settings.engine, settings.camera.eye], ['shaded', 'cpu', first]);
+  await page.reload();
+  await settled(page);
+  assert.ok(!(await page.locator('#single_keys').isChecked()), 'the browser remembers it');
+  await page.locator('#single_keys').check();
+  await page.focus('#picture');
+  await and_settle(page, () => page.keyboard.press('4'));
+  assert.equal((await link_state(page)).settings.view, 'normal');
+  no_complaints(complaints);
+  await context.close();
+});
 
 test('notes and errors go with the file that they are about', async () => {
   const { page, context } = await open_page(browser, server.url, small);

@@ -20,10 +20,11 @@ const isolation = {
 };
 
 /** Serves `folder`, and `files` (paths of URLs to paths on disk) beside it. `before`: [pattern, code] that goes before
- * every script whose path matches. Resolves to {url, close}. */
-export function serve(folder, { isolated = true, files = {}, before = null } = {}) {
+ * every script whose path matches. `asked`: called with the path of each request. Resolves to {url, close}. */
+export function serve(folder, { isolated = true, files = {}, before = null, asked = () => {} } = {}) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://host/').pathname);
+    asked(path);
     const name = files[path] ?? join(folder, normalize(path === '/' ? '/index.html' : path));
     let size;
     try {

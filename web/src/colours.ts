@@ -2,6 +2,7 @@
 import { element } from './dom';
 import type { ColouredBy, Facts, Look } from './protocol';
 import { colour_maps } from './settings';
+import { is_typing_in } from './typing';
 
 const presets = ['studio', 'cloudy', 'headlight', 'thesis'];
 const grey = '#808080';
@@ -105,7 +106,7 @@ export class ColourControls {
     const parts = parts_of(look.colour_by);
     choose(this.attribute, parts.attribute);
     choose(this.map, parts.map);
-    if (![this.min, this.max].includes(document.activeElement as HTMLInputElement)) {
+    if (![this.min, this.max].some(is_typing_in)) {
       this.min.value = parts.min;
       this.max.value = parts.max;
     }

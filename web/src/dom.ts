@@ -9,18 +9,17 @@ export function element<T extends HTMLElement = HTMLElement>(id: string): T {
 
 /** The radio buttons of a group as one value. */
 export class RadioGroup {
-  private readonly buttons: HTMLInputElement[];
+  private readonly box: HTMLElement;
 
   constructor(fieldset: string, on_change: (value: string) => void) {
-    this.buttons = [...element(fieldset).querySelectorAll<HTMLInputElement>('input[type=radio]')];
-    for (const button of this.buttons)
-      button.addEventListener('change', () => {
-        if (button.checked) on_change(button.value);
-      });
+    this.box = element(fieldset);
+    this.box.addEventListener('change', ({ target }) => {
+      if (target instanceof HTMLInputElement && target.checked) on_change(target.value);
+    });
   }
 
   set value(value: string) {
-    for (const button of this.buttons) button.checked = button.value === value;
+    for (const button of this.box.querySelectorAll<HTMLInputElement>('input[type=radio]')) button.checked = button.value === value;
   }
 }
 

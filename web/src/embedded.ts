@@ -1,17 +1,26 @@
-// The page inside another one: <bihive-viewer> (web/viewer) shows it in a frame, without its panel, and gets messages
-// from it.
-
-/** Messages of the frame to the page around it; `facts`: name, format, number of spheres, frames. */
-export type Told = { bihive: 'loaded'; name: string; format: string; spheres: number; frames: number } | { bihive: 'failed'; message: string };
+// The page inside another one: <bihive-viewer> (web/viewer) shows it in a frame, without its panel. How both speak with
+// each other stands in host.ts.
 
 const asked = new URLSearchParams(location.search).get('embed');
 
+export const is_embedded = asked !== null;
+
+/** The component around the page says what it shows: `?embed=viewer`. Without one the address does. */
+export const has_host = asked === 'viewer' && parent !== window;
+
 /** Hides what belongs to a separate page; `?embed=panel` keeps the panel. */
 export function start_embedded(): void {
-  if (asked !== null) document.documentElement.classList.add(asked === 'panel' ? 'embedded' : 'embedded_alone');
+  if (!is_embedded) return;
+  show_parts({ panel: asked === 'panel', badge: !has_host });
 }
 
-/** To a page of the same origin alone: names of files are private. */
-export function tell(told: Told): void {
-  if (asked !== null && parent !== window) parent.postMessage(told, location.origin);
+/** What is shown beside the picture. */
+export function show_parts({ panel, badge }: { panel: boolean; badge: boolean }): void {
+  const root = document.documentElement;
+  root.classList.add('embedded');
+  root.classList.toggle('embedded_alone', !panel);
+  root.classList.toggle('without_badge', !badge);
+  // The reader's theme of the separate page would make the frame opaque: browsers draw a ground below it where light
+  // meets dark.
+  if (!panel) delete root.dataset['theme'];
 }

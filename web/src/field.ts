@@ -1,5 +1,6 @@
 // A field for a text or a number.
 import { element } from './dom';
+import { is_typing_in } from './typing';
 
 export class Field<T> {
   private readonly input: HTMLInputElement;
@@ -21,7 +22,7 @@ export class Field<T> {
 
   /** Keeps what the user is typing. */
   set value(value: T) {
-    if (document.activeElement !== this.input) this.input.value = this.words(value);
+    if (!is_typing_in(this.input)) this.input.value = this.words(value);
   }
 
   set disabled(disabled: boolean) {

@@ -32,12 +32,13 @@ export class GlCanvas {
   constructor(
     private readonly module: Module,
     readonly canvas: OffscreenCanvas,
+    see_through: boolean,
     events: GlEvents,
   ) {
     canvas.addEventListener('webglcontextcreationerror', (event) => {
       this.why_not = (event as WebGLContextEvent).statusMessage;
     });
-    this.context = canvas.getContext('webgl2', attributes);
+    this.context = canvas.getContext('webgl2', { ...attributes, alpha: see_through });
     if (this.context) this.name = name_of(this.context);
     if (this.context) this.register();
     canvas.addEventListener('webglcontextlost', (event) => {

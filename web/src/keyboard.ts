@@ -1,4 +1,6 @@
-// Moves the picture by keys, wherever the focus is, unless a control takes the key itself.
+// Moves the picture by keys, wherever the focus is, unless a control takes the key itself, and by the buttons for zoom.
+import { element } from './dom';
+import { remember, remembered } from './remembered';
 import type { EngineName, Move, ViewName } from './protocol';
 
 const step_px = 24; // of the page
@@ -22,6 +24,19 @@ export interface KeyActions {
   play(key: string): boolean;
 }
 
+const single_keys = 'bihive-single-keys'; // 'off': letters, digits and signs do nothing by themselves
+
+/** Zooms at the middle of the picture. */
+export function zoom_by(factor: number, { width, height }: { width: number; height: number }): Move {
+  return { kind: 'zoom', factor, x: width / 2, y: height / 2 };
+}
+
+export function listen_for_zoom(size: () => { width: number; height: number }, move: (move: Move) => void): void {
+  for (const [id, factor] of [['zoom_in', zoom_step ** 2], ['zoom_out', zoom_step ** -2]] as const)
+    element(id).addEventListener('click', () => move(zoom_by(factor, size())));
+  element('zoom_all').addEventListener('click', () => move({ kind: 'home' }));
+}
+
 // Fields take letters and digits; sliders, radio buttons and the scrolled panel take arrows and Home.
 function takes(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
@@ -38,19 +53,21 @@ function takes(target: EventTarget | null, key: string): boolean {
 }
 
 export function listen_for_keys(actions: KeyActions): void {
+  const single = element<HTMLInputElement>('single_keys');
+  single.checked = remembered(single_keys) !== 'off';
+  single.addEventListener('change', () => remember(single_keys, single.checked ? 'on' : 'off'));
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (takes(event.target, event.key) || document.querySelector('dialog[open]')) return;
+    if (event.key.length === 1 && event.key !== ' ' && !single.checked) return;
     const arrow = arrows[event.key];
     const zoom = { '+': zoom_step, '=': zoom_step, '-': 1 / zoom_step, _: 1 / zoom_step }[event.key];
     const view = views[Number(event.key) - 1];
     if (arrow) {
       const px = step_px * actions.scale();
       actions.move({ kind: event.shiftKey ? 'pan' : 'orbit', dx: arrow[0] * px, dy: arrow[1] * px });
-    } else if (zoom) {
-      const { width, height } = actions.size();
-      actions.move({ kind: 'zoom', factor: zoom, x: width / 2, y: height / 2 });
-    } else if (event.key === 'Home') actions.move({ kind: 'home' });
+    } else if (zoom) actions.move(zoom_by(zoom, actions.size()));
+    else if (event.key === 'Home') actions.move({ kind: 'home' });
     else if (view) actions.view(view);
     else if (event.key === 'e' || event.key === 'E') actions.set_engine(actions.engine() === 'gpu' ? 'cpu' : 'gpu');
     else if (!actions.play(event.key)) return;

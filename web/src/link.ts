@@ -71,9 +71,11 @@ export function state_from(document: unknown): State | null {
   };
 }
 
+export const has_state = (hash: string): boolean => hash.startsWith(prefix);
+
 /** The state in an address; null if it has none; throws if it is damaged. */
 export function state_of(hash: string): State | null {
-  if (!hash.startsWith(prefix)) return null;
+  if (!has_state(hash)) return null;
   try {
     const binary = atob(hash.slice(prefix.length).replaceAll('-', '+').replaceAll('_', '/'));
     const state = state_from(

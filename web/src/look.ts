@@ -2,20 +2,31 @@
 // controls for all spheres.
 import { ColourControls } from './colours';
 import { element, RadioGroup } from './dom';
-import type { ColouredBy, Facts, Look, LookFault, LookRow } from './protocol';
+import type { Choices, ColouredBy, Facts, Look, LookFault, LookRow } from './protocol';
+import { build_style_tiles } from './style_tiles';
 
-const value_words: Record<string, { hint: string; list: string; mode: string }> = {
-  colour: { hint: 'orange or #ff8800', list: 'colour_names', mode: 'text' },
-  'colour-by': { hint: 'chain or b_factor:magma', list: 'colour_attributes', mode: 'text' },
-  opacity: { hint: '0 to 1', list: '', mode: 'decimal' },
-  material: { hint: 'metal', list: 'material_names', mode: 'text' },
-  'radius-scale': { hint: '0.5', list: '', mode: 'decimal' },
-  outline: { hint: '0 to 16', list: '', mode: 'decimal' },
-  crease: { hint: 'chain', list: 'colour_attributes', mode: 'text' },
-  'legend-name': { hint: 'ligand', list: '', mode: 'text' },
-  clip: { hint: 'plane:0,0,1,0', list: '', mode: 'text' },
+// Actions with a value: its name, and an example of it. `label`: of the action, where its name says too little.
+interface ValueWords {
+  value: string;
+  hint: string;
+  list: string;
+  mode: string;
+  label?: string;
+}
+const value_words: Record<string, ValueWords> = {
+  colour: { value: 'a colour', hint: 'orange or #ff8800', list: 'colour_names', mode: 'text' },
+  'colour-by': { value: 'an attribute', hint: 'chain or b_factor:magma', list: 'colour_attributes', mode: 'text' },
+  opacity: { value: 'an opacity', hint: '0 to 1', list: '', mode: 'decimal' },
+  material: { value: 'a material', hint: 'metal', list: 'material_names', mode: 'text' },
+  'radius-scale': { value: 'a factor', hint: '0.5', list: '', mode: 'decimal', label: 'radius ×' },
+  outline: { value: 'a width', hint: '0 to 16', list: '', mode: 'decimal', label: 'outline px' },
+  crease: { value: 'an attribute', hint: 'chain', list: 'colour_attributes', mode: 'text' },
+  'legend-name': { value: 'a name', hint: 'ligand', list: '', mode: 'text', label: 'name in legend' },
+  clip: { value: 'a shape', hint: 'plane:0,0,1,0', list: '', mode: 'text' },
 };
 const is_complete = ({ action, value }: LookRow) => !(action in value_words) || value !== '';
+const waiting = ({ action }: LookRow) => `It waits for ${value_words[action]!.value}: ${value_words[action]!.hint}`;
+const option = (value: string, text: string) => Object.assign(document.createElement('option'), { value, textContent: text });
 
 // One row of controls.
 class RowControls {
@@ -93,7 +104,15 @@ export class LookControls {
     element('look_add').addEventListener('click', () => this.add({ select: '', action: 'colour', value: '' }).focus());
   }
 
-  /** The choices. */
+  /** The library's names. */
+  build({ styles, actions, materials }: Choices): void {
+    build_style_tiles(styles);
+    const list = element<HTMLTemplateElement>('look_row').content.querySelector('.action')!;
+    list.append(...actions.map((name) => option(name, value_words[name]?.label ?? name.replaceAll('-', ' '))));
+    element('material_names').append(...materials.map((name) => option(name, '')));
+  }
+
+  /** What the scene has. */
   show_facts(facts: Facts): void {
     this.file_of_spheres = facts.is_file_of_spheres;
     this.of_all.show_facts(facts);
@@ -101,20 +120,28 @@ export class LookControls {
     element('style_note').hidden = facts.takes_style;
     element('own_style').hidden = facts.is_file_of_spheres;
     element('element_colours_row').hidden = !facts.has_elements;
-    const options = (names: string[]) => names.map((name) => Object.assign(document.createElement('option'), { value: name }));
+    const options = (names: string[]) => names.map((name) => option(name, ''));
     element('colour_attributes').replaceChildren(...options(facts.attributes));
     element('selection_words').replaceChildren(...options(['all', ...facts.attributes.map((name) => `${name} `)]));
     element('look_names').textContent = facts.attributes.join(', ');
   }
 
-  /** The look of a newly loaded scene. */
-  show(look: Look, coloured_by: ColouredBy[]): void {
+  /** The look of a newly loaded scene, or one that is restored. `counts`: the rows' numbers of spheres, if known. */
+  show(look: Look, counts: number[] | null, coloured_by: ColouredBy[]): void {
     this.show_choices(look);
     this.of_all.show_ranges(coloured_by);
     this.rows = [];
     this.list.replaceChildren();
     for (const row of look.rows) this.add(row);
     this.sent = [...this.rows];
+    if (counts) this.show_counts(counts);
+  }
+
+  private show_counts(counts: number[]): void {
+    for (const [i, row] of this.sent.entries()) {
+      const count = counts[i] ?? 0;
+      row.say(count === 1 ? '1 sphere' : `${count.toLocaleString('en')} spheres`, false);
+    }
   }
 
   private show_choices(look: Look): void {
@@ -133,11 +160,7 @@ export class LookControls {
     if (coloured_by) this.of_all.show_ranges(coloured_by);
     if (fault) this.sent[fault.row]?.say(fault.message, true);
     // The rows in the answer may be older than those with a fault.
-    else if (JSON.stringify(this.sent.map(({ row }) => row)) === JSON.stringify(look.rows))
-      for (const [i, row] of this.sent.entries()) {
-        const count = counts[i] ?? 0;
-        row.say(count === 1 ? '1 sphere' : `${count.toLocaleString('en')} spheres`, false);
-      }
+    else if (JSON.stringify(this.sent.map(({ row }) => row)) === JSON.stringify(look.rows)) this.show_counts(counts);
   }
 
   private change_background(): void {
@@ -167,7 +190,7 @@ export class LookControls {
   }
 
   private change_rows(): void {
-    for (const row of this.rows) row.say('', false);
+    for (const row of this.rows) row.say(is_complete(row.row) ? '' : waiting(row.row), false);
     this.sent = this.rows.filter(({ row }) => is_complete(row));
     this.change({ rows: this.sent.map(({ row }) => row) });
   }

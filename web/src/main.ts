@@ -4,11 +4,15 @@ import { element, grouped } from './dom';
 import { Engine } from './engine';
 import { Figures, is_figure } from './figure';
 import type { NamedBlob } from './figure_protocol';
-import { listen_for_keys } from './keyboard';
+import type { Past, Snapshot } from './history';
+import { Keeper, type Kept } from './kept';
+import { Inspector } from './inspect';
+import { listen_for_keys, listen_for_zoom } from './keyboard';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
-import { start_embedded, tell } from './embedded';
-import { document_of, link_of, reading_of, state_from, state_of, type State } from './link';
+import { has_host, is_embedded, start_embedded } from './embedded';
+import { Host } from './host';
+import { document_of, has_state, link_of, reading_of, state_from, state_of, type State } from './link';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
 import { start_panel } from './panel';
@@ -22,8 +26,10 @@ import {
 } from './sources';
 import { describe_device } from './device';
 import { show_statistics } from './statistics';
+import { load_style_pictures } from './style_tiles';
 import { start_theme } from './theme';
 import { ThesisDialog } from './thesis';
+import { Undo } from './undo';
 
 const most_pixels = 2560 * 1600; // of a picture on the screen
 const finest_ratio = 2; // finer pixels of a phone are invisible
@@ -39,6 +45,7 @@ let facts: Facts | null = null;
 let gpu: GpuState = { name: '', here: false, software: false, why_not: '', description: '' };
 let serial = 0;
 let look_serial = 0;
+let look_answered = 0;
 let loading = 0; // id of the load that is awaited
 let first_frame = false; // of the newly loaded scene: it is awaited
 let chosen: OwnFiles | null = null; // the user's shown files
@@ -49,14 +56,19 @@ let asked_columns = ''; // of the load that is awaited
 let asked: Ask | null = null; // the user's own file that a link was made for
 let address_reading: Reading | undefined;
 let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
-const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean }>(); // loads by their ids: what holds once they are done
+// Loads by their ids: what holds once they are done. `past`: the scene's; 'same' after another reading of the shown one.
+const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean; past: Past | 'same' | null; undone: -1 | 1 | null }>();
+const host = new Host();
+let shown_frame = 0;
 let scale = 1;
 let size = { width: 1, height: 1 };
 
 const engine = new Engine(
   {
-    ready: ({ version, threads, gpu: found, parameters }) => {
-      controls.build(parameters);
+    ready: ({ version, threads, gpu: found, choices }) => {
+      controls.build(choices.settings);
+      looks.build(choices);
+      undo.name_by(choices.settings);
       program_version = version;
       gpu = found;
       show_gpu();
@@ -83,16 +95,22 @@ const engine = new Engine(
       controls.show(answer.settings);
       look = answer.look;
       looks.show_facts(answer.facts);
-      looks.show(look, answer.coloured_by);
+      inspector.begin(answer.facts.length_unit);
+      looks.show(look, answer.counts, answer.coloured_by);
+      look_answered = look_serial;
+      keeper?.show(source, chosen);
+      if (now?.past !== 'same') undo.begin(snapshot()!, now?.past ?? null);
+      else if (!now.undone) undo.act();
       for (const text of answer.notes) note(text, answer.id);
-      const { name, format, spheres, frames } = answer.facts;
-      tell({ bihive: 'loaded', name, format, spheres, frames });
+      host.loaded(answer.id, answer.facts, answer.settings, answer.look);
     },
     failed: ({ id, message }) => {
       busy(null);
       first_frame = false;
       saving.failed(id);
       const own = id === null ? null : (awaited.get(id)?.own ?? null);
+      const undone = id === null ? null : (awaited.get(id)?.undone ?? null);
+      if (undone) undo.take_back(undone);
       if (id !== null) awaited.delete(id);
       if (id === loading) {
         show_source(source);
@@ -103,7 +121,7 @@ const engine = new Engine(
         }
       }
       fail(message);
-      tell({ bihive: 'failed', message });
+      host.failed(id, message);
     },
     note: ({ message }) => note(message),
     gpu: ({ gpu: found }) => {
@@ -116,20 +134,41 @@ const engine = new Engine(
     },
     look: (answer) => {
       look = answer.look;
+      look_answered = Math.max(look_answered, answer.serial);
       if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.coloured_by, answer.fault);
+      host.look_answered();
+    },
+    restored: (answer) => {
+      show_settings(answer.settings);
+      controls.show(answer.settings);
+      look = answer.look;
+      looks.show(look, answer.counts, answer.coloured_by ?? []);
+      for (const text of answer.notes) note(text);
     },
     frame: (answer) => {
       show_settings(answer.settings);
       if (answer.serial === serial) controls.show(answer.settings);
       show_engine(answer.settings.engine);
+      inspector.draw();
+      // Between two steps of a drag too, when all that was asked for is shown.
+      if (answer.serial === serial && look_answered === look_serial) undo.note(snapshot()!);
       show_frame(answer.report, answer.width_px, answer.height_px);
-      if (first_frame && answer.report.drawn) busy(null);
+      if (first_frame && answer.report.drawn) {
+        busy(null);
+        load_style_pictures();
+      }
       if (answer.report.drawn) first_frame = false;
     },
-    player: ({ player: state }) => player.show(state),
+    player: ({ player: state }) => {
+      player.show(state);
+      if (state.shown && state.frame !== shown_frame) inspector.moved();
+      if (state.shown) shown_frame = state.frame;
+    },
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
-    picture: ({ picture: file }) => saving.done(file, facts?.name ?? 'picture'),
+    picked: ({ id, picked }) => inspector.picked(id, picked) || host.picked(id, picked),
+    described: ({ spheres }) => inspector.described(spheres),
+    picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => {
       if (settings) show_engine(settings.engine);
@@ -153,16 +192,26 @@ const engine = new Engine(
 );
 
 function change(changes: Changes): void {
+  undo.act();
   engine.send({ type: 'set', serial: ++serial, changes });
+}
+
+// In pixels of the page; returns the id of the request.
+function pick(x: number, y: number): number {
+  const id = engine.new_id();
+  engine.send({ type: 'pick', id, x_px: x * scale, y_px: y * scale });
+  return id;
 }
 
 function move_camera(move: Move): void {
   framed = move.kind === 'look_from' || move.kind === 'home';
-  engine.send({ type: 'move', move });
+  undo.act();
+  engine.send({ type: 'move', serial: ++serial, move });
 }
 
 const controls = new Controls({ change, move: move_camera });
 const looks = new LookControls((changes) => {
+  undo.act();
   picture.dataset['settled'] = 'false';
   engine.send({ type: 'look', serial: ++look_serial, changes });
 });
@@ -174,6 +223,15 @@ const saving = new Saving({
   },
   cancel: () => engine.send({ type: 'picture_cancel' }),
 });
+const inspector = new Inspector({
+  pick,
+  describe: (spheres) => engine.send({ type: 'describe', spheres }),
+  camera: () => settings?.camera ?? null,
+  look_at: (eye, look_at) => {
+    framed = false;
+    change({ camera: { eye: [...eye], look_at: [...look_at] } });
+  },
+});
 const player = new PlayerBar((action) => engine.send({ type: 'play', action }));
 const thesis = new ThesisDialog({
   run: (quick, saved) => engine.send({ type: 'thesis', quick, device: device_json(), saved }),
@@ -182,13 +240,19 @@ const thesis = new ThesisDialog({
   goes_on_from: (result) => result['engine'] === settings?.engine && result['version'] === program_version,
 });
 
+const keeper = is_embedded ? null : new Keeper();
+const undo = new Undo({ restore, changed: (past) => keeper?.keep(past) });
+
 let program_version = '';
 const device_json = () => describe_device(gpu.name, navigator.hardwareConcurrency, program_version);
+
+const snapshot = (): Snapshot | null => settings && look && { reading: source.reading ?? null, settings, look, framed };
 
 // Answers of the worker.
 
 function show_settings(now: Settings): void {
   settings = now;
+  host.settings(now);
 }
 
 function show_engine(name: EngineName): void {
@@ -239,12 +303,16 @@ function show_frame(report: FrameReport, width: number, height: number): void {
 
 // Actions of the user.
 
-// `own`: files of the user's, so that they can be read again.
+type AskedState = Omit<State, 'source'> & { framed?: boolean };
+
+// `own`: files of the user's, so that they can be read again. `past`, `undone`: as in `awaited`.
 async function open(
   what: Promise<Wanted>,
   name: string,
-  wanted: Omit<State, 'source'> | null = null,
+  wanted: AskedState | null = null,
   own: OwnFiles | null = null,
+  past: Past | 'same' | null = null,
+  undone: -1 | 1 | null = null,
 ): Promise<void> {
   const id = (loading = engine.new_id());
   first_frame = false;
@@ -258,14 +326,15 @@ async function open(
     const state = { settings: wanted?.settings ?? null, look: wanted?.look ?? null };
     const blobs = files ? [files, ...(files.trajectory ? [files.trajectory] : [])] : [];
     const named = blobs.map(({ name, content }) => ({ name, content }));
-    awaited.set(id, { own, files: named, framed: !state.settings?.camera?.eye });
+    awaited.set(id, { own, files: named, framed: wanted?.framed ?? !state.settings?.camera?.eye, past, undone });
     asked_columns = String(from.reading?.columns ?? '');
     engine.send({ type: 'load', id, source: from, files, ...state });
   } catch (error) {
     busy(null);
     show_source(source);
+    if (undone) undo.take_back(undone);
     fail((error as Error).message);
-    tell({ bihive: 'failed', message: (error as Error).message });
+    host.failed(id, (error as Error).message);
   }
 }
 
@@ -320,9 +389,31 @@ function read_again(reading: Reading | undefined): void {
   if (!settings) return;
   const { fov_deg, projection, aperture, focus } = settings.camera;
   const camera = framed ? { fov_deg, projection, aperture, focus } : settings.camera;
-  const state = { settings: { ...settings, camera }, look };
-  if (chosen) void open(wanted_files(chosen, reading), chosen.file.name, state, chosen);
-  else void open(wanted_source(with_reading(source, reading)), name_of(source), state);
+  open_shown(reading, { settings: { ...settings, camera }, look }, 'same');
+}
+
+// The shown scene, with this state.
+function open_shown(reading: Reading | undefined, state: AskedState, past: 'same', undone: -1 | 1 | null = null): void {
+  if (chosen) void open(wanted_files(chosen, reading), chosen.file.name, state, chosen, past, undone);
+  else void open(wanted_source(with_reading(source, reading)), name_of(source), state, null, past, undone);
+}
+
+// A state from the history of the shown scene.
+function restore(state: Snapshot, by: -1 | 1): void {
+  const reading = state.reading ?? undefined;
+  if (JSON.stringify(reading) !== JSON.stringify(source.reading)) return open_shown(reading, state, 'same', by);
+  framed = state.framed;
+  picture.dataset['settled'] = 'false';
+  look_answered = ++look_serial;
+  engine.send({ type: 'restore', serial: ++serial, settings: state.settings, look: state.look });
+}
+
+// What the tab showed before it was loaded again.
+function open_kept({ source: from, past, own }: Kept): Promise<void> {
+  const state = past.states[past.at]!;
+  const reading = state.reading ?? undefined;
+  if (own) return open(wanted_files(own, reading), own.file.name, state, own, past);
+  return open(wanted_source(with_reading(from, reading)), name_of(from), state, null, past);
 }
 
 function watch_size(): void {
@@ -340,11 +431,19 @@ function watch_size(): void {
   fit();
 }
 
+// A phone has a sheet of its own for links.
+const shares_links = 'share' in navigator && matchMedia('(pointer: coarse)').matches;
+
 async function copy_link(): Promise<void> {
   if (!settings) return;
   const link = link_of({ source, settings, look });
   history.replaceState(null, '', link);
   const words = 'file' in source ? `It asks for the file ${source.file}, which is not in it.` : '';
+  if (shares_links) {
+    // Closing the system's sheet is no fault.
+    await navigator.share({ title: document.title, url: link }).catch(() => {});
+    return;
+  }
   try {
     await navigator.clipboard.writeText(link);
     note(`The link is copied. ${words}`);
@@ -353,16 +452,18 @@ async function copy_link(): Promise<void> {
   }
 }
 
-// The first input: the state in the address, the FILE of `bihive web FILE`, or the molecule.
-async function first_state(): Promise<State> {
-  const linked = state_of(location.hash);
-  if (linked) return linked;
-  const started = await fetch(new URL('start.json', document.baseURI))
+// The FILE of `bihive web FILE`, as the text of a state; empty: there is none, or the address has a state.
+async function started(): Promise<string> {
+  if (has_state(location.hash)) return '';
+  return fetch(new URL('start.json', document.baseURI))
     .then((response) => (response.ok ? response.text() : ''))
     .then(remember_start)
     .catch(remembered_start);
-  return state_from(document_of(started)) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 }
+
+// The first input: the state in the address, that FILE, or the molecule.
+const first_state = (start: string): State =>
+  state_of(location.hash) ?? state_from(document_of(start)) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 
 // The missing features of the browser, or nothing.
 function lacking(): string {
@@ -389,13 +490,15 @@ async function start(): Promise<void> {
   figures = new Figures({ base: document.baseURI, threads }, () => shown_files);
   const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
   busy('Starting');
+  const wasm = await host.begin(threads);
   engine.send(
-    { type: 'start', threads, base: document.baseURI, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
+    { type: 'start', threads, base: document.baseURI, embedded: is_embedded, wasm, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
     [...canvases],
   );
   watch_size();
 
   listen_for_pointers(picture, () => scale, move_camera);
+  listen_for_zoom(() => size, move_camera);
   listen_for_keys({
     scale: () => scale,
     size: () => size,
@@ -412,11 +515,12 @@ async function start(): Promise<void> {
   listen_for_reading(read_again);
   listen_for_launches((files) => void take_files(files));
   element('copy_link').addEventListener('click', () => void copy_link());
+  if (shares_links) element('copy_link').textContent = 'Share link';
 
-  const open_state = async () => {
+  const open_state = async (start: string) => {
     try {
       address_reading = reading_of(location.search);
-      const state = await first_state();
+      const state = first_state(start);
       forget_asked();
       if ('file' in state.source) {
         // The camera of one file would be confusing for another.
@@ -429,8 +533,40 @@ async function start(): Promise<void> {
       await opened;
     }
   };
-  addEventListener('hashchange', () => void open_state());
-  await open_state();
+  host.start({
+    open: ({ source: from, file, trajectory, look, camera }) => {
+      const state = { settings: camera && { camera }, look };
+      if (file) void open(wanted_files({ file, trajectory }, from.reading), file.name, state, { file, trajectory });
+      else void open_source(from, state);
+      return loading;
+    },
+    read_again: (reading) => {
+      read_again(reading);
+      return loading;
+    },
+    look: (changes) => {
+      picture.dataset['settled'] = 'false';
+      engine.send({ type: 'look', serial: ++look_serial, changes });
+    },
+    camera: (camera) => {
+      framed = false;
+      change({ camera });
+    },
+    pick,
+    draw: (width, height) => {
+      const id = engine.new_id();
+      engine.send({ type: 'picture', id, width_px: width ?? size.width, height_px: height ?? size.height });
+      return id;
+    },
+  });
+  if (has_host) return;
+
+  addEventListener('hashchange', () => {
+    if (has_state(location.hash)) void open_state('');
+  });
+  const text = await started();
+  const kept = (await keeper?.open(text)) ?? null;
+  await (kept ? open_kept(kept) : open_state(text));
 }
 
 void start();

@@ -72,6 +72,11 @@ export function fail(text: string): void {
   while (box.childElementCount > most_at_once) box.firstElementChild!.remove();
 }
 
+/** For those who hear the page: what is seen anyway. */
+export function speak(text: string): void {
+  element('spoken').textContent = text;
+}
+
 /** Another scene is requested: it starts without messages. */
 export function begin_load(load: number): void {
   loads = load;

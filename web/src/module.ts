@@ -27,6 +27,9 @@ export interface Page {
   take_image(): string;
   pixels(): Uint8Array;
   show(width_px: number, height_px: number): void;
+  let_page_through(): void;
+  pick(x_px: number, y_px: number): string;
+  sphere(id: number): string;
   begin_picture(width_px: number, height_px: number, samples_per_pixel: number): string;
   step_picture(budget_ms: number): string;
   take_picture(): string;
@@ -95,14 +98,25 @@ export interface FigureModule {
   sha256_at(path: string): string;
 }
 
-async function load<M>(name: string, base: string, threads: boolean): Promise<M> {
+type Instantiate = (imports: WebAssembly.Imports, done: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void) => object;
+
+// Emscripten's way to use a module that is compiled already.
+const instantiate =
+  (wasm: WebAssembly.Module): Instantiate =>
+  (imports, done) => {
+    void WebAssembly.instantiate(wasm, imports).then((instance) => done(instance, wasm));
+    return {};
+  };
+
+async function load<M>(name: string, base: string, threads: boolean, wasm: WebAssembly.Module | null = null): Promise<M> {
   const address = new URL(`wasm/${threads ? 'threads' : 'single'}/${name}.js`, base).href;
-  const { default: create } = (await import(/* @vite-ignore */ address)) as { default: () => Promise<M> };
-  return create();
+  const { default: create } = (await import(/* @vite-ignore */ address)) as { default: (options?: { instantiateWasm: Instantiate }) => Promise<M> };
+  return wasm ? create({ instantiateWasm: instantiate(wasm) }) : create();
 }
 
-/** `base`: the page's own address. Throws if the module cannot be loaded. */
-export const load_module = (base: string, threads: boolean): Promise<Module> => load('bihive', base, threads);
+/** `base`: the page's own address; `wasm`: the module, if somebody has compiled it already. Throws if it cannot be loaded. */
+export const load_module = (base: string, threads: boolean, wasm: WebAssembly.Module | null): Promise<Module> =>
+  load('bihive', base, threads, wasm);
 
 /** The module for figures, which only they need. */
 export const load_figure_module = (base: string, threads: boolean): Promise<FigureModule> => load('figure', base, threads);

@@ -1,4 +1,5 @@
 // The installed page: works without a network, and opens files (web/public).
+import { remember, remembered } from './remembered';
 
 /** Only from https, where a browser may install the page. Pages of `bihive web` need no cache; the address ?offline
  * requests one anyway. */
@@ -13,24 +14,14 @@ export function keep_for_offline(): void {
 // The page's first input, under its address: without a network it cannot be asked for, and no other one may take its place.
 const start_key = () => `bihive start ${new URL('.', document.baseURI).pathname}`;
 
-/** Keeps the text of start.json, and returns it. */
+/** Keeps the text of start.json, and returns it. Without storage, the page without a network begins with the molecule. */
 export function remember_start(text: string): string {
-  try {
-    localStorage.setItem(start_key(), text);
-  } catch {
-    // Without storage, the page without a network begins with the molecule.
-  }
+  remember(start_key(), text);
   return text;
 }
 
 /** The text of the last visit; empty if there is none. */
-export function remembered_start(): string {
-  try {
-    return localStorage.getItem(start_key()) ?? '';
-  } catch {
-    return '';
-  }
-}
+export const remembered_start = (): string => remembered(start_key()) ?? '';
 
 interface LaunchParameters {
   files: readonly { getFile(): Promise<File> }[];

@@ -83,6 +83,7 @@ export interface Facts {
   has_cell: boolean;
   copies: [number, number, number]; // along the cell's vectors, as the input asks for
   attributes: string[];
+  length_unit: string; // empty: unknown
 }
 
 export interface FrameReport {
@@ -142,14 +143,27 @@ export type Move =
   | { kind: 'look_from'; side: SideName }
   | { kind: 'home' };
 
+/** The sphere at a place of the picture (viewer/pick.h). */
+export interface Picked {
+  sphere: number; // its id in the shown set
+  point: [number, number, number]; // on its surface
+  distance: number; // from the eye
+  centre: [number, number, number];
+  radius: number;
+  attributes: Record<string, number | string | null>;
+}
+
 /** Messages to the worker. `id` is returned with the answer. */
 export type Request =
-  | { type: 'start'; threads: boolean; base: string; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
+  | { type: 'start'; threads: boolean; base: string; embedded: boolean; wasm: WebAssembly.Module | null; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
   | { type: 'load'; id: number; source: Source; files: Files | null; settings: Changes | null; look: Partial<Look> | null }
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
-  | { type: 'move'; move: Move }
+  | { type: 'move'; serial: number; move: Move }
+  | { type: 'restore'; serial: number; settings: Settings; look: Look } // of the same scene
+  | { type: 'pick'; id: number; x_px: number; y_px: number }
+  | { type: 'describe'; spheres: number[] } // by their ids
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | { type: 'picture_cancel' }
   | { type: 'play'; action: PlayAction }
@@ -159,8 +173,9 @@ export type Request =
 
 /** Messages from the worker. `serial`: the last request included in these settings. */
 export type Answer =
-  | { type: 'ready'; version: string; threads: number; gpu: GpuState; parameters: Parameter[] }
-  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; coloured_by: ColouredBy[]; notes: string[] }
+  | { type: 'ready'; version: string; threads: number; gpu: GpuState; choices: Choices }
+  | { type: 'loaded'; id: number; source: Source; facts: Facts; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[]; notes: string[] }
+  | { type: 'restored'; settings: Settings; look: Look; counts: number[] | null; coloured_by: ColouredBy[] | null; notes: string[] }
   | { type: 'failed'; id: number | null; message: string }
   | { type: 'note'; message: string }
   | { type: 'gpu'; gpu: GpuState }
@@ -169,6 +184,8 @@ export type Answer =
   | { type: 'frame'; report: FrameReport; serial: number; settings: Settings; width_px: number; height_px: number }
   | { type: 'player'; player: PlayerState }
   | { type: 'statistics'; json: string }
+  | { type: 'picked'; id: number; picked: Picked | null }
+  | { type: 'described'; spheres: (Picked | null)[] }
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }
@@ -177,6 +194,14 @@ export type Answer =
   | { type: 'shown_done'; cancelled: boolean; result: string }
   | { type: 'thesis_failed'; message: string }
   | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
+
+/** The library's own names. */
+export interface Choices {
+  styles: { name: string; description: string }[];
+  actions: string[];
+  materials: string[];
+  settings: Parameter[];
+}
 
 /** The available GPU. */
 export interface GpuState {

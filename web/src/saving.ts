@@ -1,7 +1,7 @@
-// "Save picture": its size, its progress, and its cancel button.
+// "Save picture" and "Copy picture": their size, their progress, and the cancel button.
 import { element } from './dom';
 import { save } from './download';
-import { busy, note } from './messages';
+import { busy, fail, note } from './messages';
 
 export interface SavingActions {
   /** Asks for the picture; returns the request's id. */
@@ -9,40 +9,105 @@ export interface SavingActions {
   cancel(): void;
 }
 
+type Size = (screen: { width: number; height: number }) => { width: number; height: number };
+
+const times = (factor: number): Size => ({ width, height }) => ({ width: factor * width, height: factor * height });
+const fixed = (width: number, height: number): Size => () => ({ width, height });
+// As wide as a journal's column, at 300 dots per inch, in the shape of the screen's picture.
+const wide_cm = (cm: number): Size => ({ width, height }) => {
+  const px = Math.round((cm / 2.54) * 300);
+  return { width: px, height: Math.round((px * height) / width) };
+};
+
+const sizes: [words: string, size: Size | null][] = [
+  ['as on the screen', times(1)],
+  ['2 × the screen', times(2)],
+  ['4 × the screen', times(4)],
+  ['slide', fixed(1920, 1080)],
+  ['square', fixed(2000, 2000)],
+  ['one column, 8.5 cm at 300 dpi', wide_cm(8.5)],
+  ['two columns, 17.8 cm at 300 dpi', wide_cm(17.8)],
+  ['other', null],
+];
+
+// Where there is a clipboard for pictures: on a secure page alone.
+const can_copy = () => 'clipboard' in navigator && 'ClipboardItem' in globalThis;
+
 export class Saving {
+  private readonly size = element<HTMLSelectElement>('save_size');
   private readonly width = element<HTMLInputElement>('save_width');
   private readonly height = element<HTMLInputElement>('save_height');
   private readonly start = element<HTMLButtonElement>('save');
+  private readonly copy = element<HTMLButtonElement>('save_copy');
   private readonly cancel = element<HTMLButtonElement>('save_cancel');
+  private screen = { width: 1, height: 1 };
   private id = 0; // of the awaited picture
+  private to_clipboard: ((picture: Blob | null) => void) | null = null; // where the awaited one goes; null: into a file
   private forget_cancelled = () => {}; // the words about the last one
 
   constructor(private readonly actions: SavingActions) {
+    this.size.append(...sizes.map(([words]) => Object.assign(document.createElement('option'), { textContent: words })));
+    this.size.addEventListener('change', () => this.fit());
+    for (const input of [this.width, this.height])
+      input.addEventListener('input', () => (this.size.selectedIndex = sizes.length - 1));
     this.start.addEventListener('click', () => this.begin());
+    this.copy.addEventListener('click', () => this.begin_copy());
     this.cancel.addEventListener('click', () => actions.cancel());
+    this.copy.hidden = !can_copy();
   }
 
-  /** The size of the picture on the screen, as the default. */
+  /** The size of the picture on the screen. */
   propose(width: number, height: number): void {
+    this.screen = { width, height };
+    this.fit();
+  }
+
+  private fit(): void {
+    const [, size] = sizes[this.size.selectedIndex]!;
+    if (!size) return;
+    const { width, height } = size(this.screen);
     this.width.value = String(width);
     this.height.value = String(height);
   }
 
-  private begin(): void {
-    if (!this.width.reportValidity() || !this.height.reportValidity()) return;
+  private begin(): boolean {
+    if (!this.width.reportValidity() || !this.height.reportValidity()) return false;
     this.forget_cancelled();
+    this.to_clipboard = null;
     this.set_running(true);
     busy('Drawing the picture');
     this.id = this.actions.draw(Number(this.width.value), Number(this.height.value));
+    return true;
+  }
+
+  // A browser lets the page copy right after a click alone, so it gets the picture as a promise.
+  private begin_copy(): void {
+    if (!this.begin()) return;
+    let came = true;
+    const picture = new Promise<Blob>((resolve, reject) => {
+      this.to_clipboard = (drawn) => {
+        came = drawn !== null;
+        if (drawn) resolve(drawn);
+        else reject(new Error('there is none')); // done() or failed() says why
+      };
+    });
+    picture.catch(() => {});
+    navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]).then(
+      () => note('The picture is copied.'),
+      (error: Error) => {
+        if (came) fail(`The picture could not be copied: ${error.message}. Save it instead.`);
+      },
+    );
   }
 
   // The focus moves to the button that replaces the other.
   private set_running(running: boolean): void {
-    const [shown, hidden] = running ? [this.cancel, this.start] : [this.start, this.cancel];
-    const has_focus = document.activeElement === hidden;
-    shown.hidden = false;
-    hidden.hidden = true;
-    if (has_focus) shown.focus();
+    const starts = [this.start, this.copy];
+    const had_focus = [...starts, this.cancel].find((button) => button === document.activeElement);
+    this.cancel.hidden = !running;
+    this.start.hidden = running;
+    this.copy.hidden = running || !can_copy();
+    if (had_focus) (running ? this.cancel : this.start).focus();
   }
 
   progress(done: number): void {
@@ -53,11 +118,17 @@ export class Saving {
   done(picture: Blob | null, scene: string): void {
     busy(null);
     this.set_running(false);
-    if (picture) save(picture, `${scene.replace(/.*\//, '').replace(/\.[^.]*$/, '')}.png`);
-    else this.forget_cancelled = note('The picture was cancelled.');
+    const copied = this.to_clipboard;
+    this.to_clipboard = null;
+    if (copied) copied(picture);
+    else if (picture) save(picture, `${scene.replace(/.*\//, '').replace(/\.[^.]*$/, '')}.png`);
+    if (!picture) this.forget_cancelled = note('The picture was cancelled.');
   }
 
   failed(id: number | null): void {
-    if (id === this.id) this.set_running(false);
+    if (id !== this.id) return;
+    this.set_running(false);
+    this.to_clipboard?.(null);
+    this.to_clipboard = null;
   }
 }

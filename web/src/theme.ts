@@ -1,5 +1,6 @@
 // Light and dark: the system's choice, or the user's choice, which this browser remembers.
 import { RadioGroup } from './dom';
+import { remember, remembered } from './remembered';
 
 const key = 'bihive-theme';
 
@@ -8,19 +9,11 @@ export function start_theme(): void {
     if (theme === 'light' || theme === 'dark') document.documentElement.dataset['theme'] = theme;
     else delete document.documentElement.dataset['theme'];
   };
-  // If the browser forbids storage, the choice lasts as long as the page.
-  const storage = (work: (store: Storage) => string | null | void) => {
-    try {
-      return work(localStorage);
-    } catch {
-      return null;
-    }
-  };
   const group = new RadioGroup('theme', (theme) => {
     apply(theme);
-    storage((store) => store.setItem(key, theme));
+    remember(key, theme);
   });
-  const theme = storage((store) => store.getItem(key)) ?? 'auto';
+  const theme = remembered(key) ?? 'auto';
   group.value = theme;
   apply(theme);
 }

@@ -1,10 +1,9 @@
 // The worker: the C++ module, the frame loop, and the answers to the page.
 import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
 import { GlCanvas } from './gl_canvas';
-import type { Parameter } from './parameter';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, ColouredBy, Facts, FrameReport, Look, Move, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
+  Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
 } from './protocol';
 import { UserFiles } from './user_files';
 
@@ -136,6 +135,11 @@ function apply_changes(): void {
   if ('max_prims' in changes || 'max_depth' in changes) statistics_wanted = true;
 }
 
+interface Looked {
+  counts: number[];
+  coloured_by: ColouredBy[];
+}
+
 // A fault of one row is shown below it; any other fault is an error of the page.
 function apply_look(): void {
   if (!wanted_look) return;
@@ -145,8 +149,7 @@ function apply_look(): void {
   let coloured_by: ColouredBy[] | null = null;
   let fault: BadInput | null = null;
   try {
-    const done = value_of<{ counts: number[]; coloured_by: ColouredBy[] }>(page.set_look(JSON.stringify(changes)));
-    ({ counts, coloured_by } = done);
+    ({ counts, coloured_by } = value_of<Looked>(page.set_look(JSON.stringify(changes))));
   } catch (error) {
     if (!(error instanceof BadInput)) throw error;
     fault = error;
@@ -248,13 +251,14 @@ interface Loaded {
 }
 
 // The look and the settings of a link, or of the scene. The engine is the user's choice: without one it stays.
-// Returns the colouring attributes, null without a requested look, and the messages of failures.
+// Returns the colouring attributes and the rows' numbers of spheres, null without a requested look, and the messages of
+// failures.
 function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   const notes: string[] = [];
-  let coloured_by: ColouredBy[] | null = null;
+  let looked: Looked | null = null;
   if (wanted) {
     try {
-      coloured_by = value_of<{ coloured_by: ColouredBy[] }>(page.set_look(JSON.stringify(wanted))).coloured_by;
+      looked = value_of<Looked>(page.set_look(JSON.stringify(wanted)));
     } catch (error) {
       notes.push(`The look does not fit this scene and was left out: ${(error as Error).message}`);
     }
@@ -269,12 +273,12 @@ function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
     }
   }
   try {
-    if (engine) value_of(page.set(JSON.stringify({ engine })));
-    value_of(page.set(JSON.stringify(others)));
+    value_of(page.set(JSON.stringify({ ...others, ...(engine && { engine }) })));
   } catch (error) {
     notes.push(`Some settings do not fit this scene and were left out: ${(error as Error).message}`);
+    if (engine) value_of(page.set(JSON.stringify({ engine })));
   }
-  return { notes, coloured_by };
+  return { notes, counts: looked?.counts ?? null, coloured_by: looked?.coloured_by ?? null };
 }
 
 async function load(request: Request & { type: 'load' }): Promise<void> {
@@ -301,10 +305,34 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   const chosen = choose(request.settings ?? {}, request.look);
   const coloured_by = chosen.coloured_by ?? loaded.coloured_by;
   const notes = [...loaded.facts.warnings, ...chosen.notes];
-  send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), coloured_by, notes });
+  send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), counts: chosen.counts, coloured_by, notes });
   send_player();
   statistics_wanted = true;
   ask_for_frame();
+}
+
+// Another state of the same scene. Requests before it are outdated.
+function restore(request: Request & { type: 'restore' }): void {
+  moves = [];
+  wanted_look = wanted_changes = null;
+  serial = request.serial;
+  const { notes, counts, coloured_by } = choose(request.settings, request.look);
+  send({ type: 'restored', settings: settings(), look: look(), counts, coloured_by, notes });
+  statistics_wanted = true;
+  ask_for_frame();
+}
+
+// In the picture that was asked for last, although it may not be shown yet.
+async function pick({ id, x_px, y_px }: Request & { type: 'pick' }): Promise<void> {
+  if (!has_scene) return send({ type: 'picked', id, picked: null });
+  if (!saving) for (const apply of [apply_moves, apply_look, apply_changes]) await attempt(null, apply);
+  send({ type: 'picked', id, ...value_of<{ picked: Picked | null }>(page.pick(x_px, y_px)) });
+}
+
+// Of the frame that is shown.
+function describe({ spheres }: Request & { type: 'describe' }): void {
+  const of_one = (id: number) => value_of<{ picked: Picked | null }>(page.sphere(id)).picked;
+  send({ type: 'described', spheres: has_scene ? spheres.map(of_one) : spheres.map(() => null) });
 }
 
 // A picture to be saved. No frames are drawn meanwhile.
@@ -412,14 +440,15 @@ async function show_frames(seconds: number, device: string): Promise<void> {
 }
 
 async function start(request: Request & { type: 'start' }): Promise<void> {
-  module = await load_module(request.base, request.threads);
+  module = await load_module(request.base, request.threads, request.wasm);
   page = new module.Page();
+  if (request.embedded) page.let_page_through();
   user_files = new UserFiles(module);
   cpu_canvas = request.cpu_canvas;
-  cpu_context = cpu_canvas.getContext('2d', { alpha: false })!;
-  gl = new GlCanvas(module, request.gpu_canvas, { lost: on_lost, restored: on_restored });
-  const { settings: parameters } = JSON.parse(page.choices()) as { settings: Parameter[] };
-  send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state(''), parameters });
+  cpu_context = cpu_canvas.getContext('2d', { alpha: request.embedded })!;
+  gl = new GlCanvas(module, request.gpu_canvas, request.embedded, { lost: on_lost, restored: on_restored });
+  const choices = JSON.parse(page.choices()) as Choices;
+  send({ type: 'ready', version: module.version(), threads: module.threads(), gpu: gl.state(''), choices });
 }
 
 let started: Promise<void> | null = null;
@@ -443,16 +472,23 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       wanted_look = { ...wanted_look, ...request.changes };
       look_serial = request.serial;
       return ask_for_frame();
+    case 'restore':
+      return attempt(null, () => restore(request));
     case 'resize':
       size_px = { width: request.width_px, height: request.height_px };
       page.resize(size_px.width, size_px.height);
       return ask_for_frame();
     case 'move':
+      serial = request.serial;
       moves.push(request.move);
       return ask_for_frame();
     case 'play':
       play(request.action);
       return ask_for_frame();
+    case 'pick':
+      return attempt(request.id, () => pick(request));
+    case 'describe':
+      return attempt(null, () => describe(request));
     case 'picture':
       return attempt(request.id, () => picture(request));
     case 'picture_cancel':

@@ -214,7 +214,7 @@ class GlRenderer::Implementation {
     return done_;
   }
 
-  void show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer) {
+  void show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer, bool checks) {
     take_state();
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl_.Viewport(viewport.x, viewport.y, viewport.width, viewport.height);
@@ -227,6 +227,7 @@ class GlRenderer::Implementation {
     shower_->set("film", 0);
     shower_->set("coverage", 1);
     shower_->set("transparent", coverer_ != nullptr && pass_ > 0);
+    shower_->set("checks", checks);
     shower_->set("film_size", float(film_.width()), float(film_.height()));
     shower_->set("corner", float(viewport.x), float(viewport.y));
     shower_->set("size", float(viewport.width), float(viewport.height));
@@ -614,8 +615,8 @@ double GlRenderer::done() const {
 int GlRenderer::samples_done() const {
   return implementation_->has_picture() ? implementation_->samples_done() : 0;
 }
-void GlRenderer::show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer) {
-  if (implementation_->has_picture()) implementation_->show(framebuffer, viewport, transfer);
+void GlRenderer::show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer, bool checks) {
+  if (implementation_->has_picture()) implementation_->show(framebuffer, viewport, transfer, checks);
 }
 Result<GlRenderer::Picture> GlRenderer::read() {
   return implementation_->read();

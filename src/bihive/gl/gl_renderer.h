@@ -59,8 +59,9 @@ class GlRenderer {
   int samples_done() const;  ///< passes that are complete for every pixel
 
   /// Draws the unfinished picture, stretched to the viewport; the transfer applies to View::shaded. Before the first
-  /// pass is complete, pixels not yet drawn are the background's. A transparent background shows grey checks.
-  void show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer);
+  /// pass is complete, pixels not yet drawn are the background's. A transparent background shows grey checks; without
+  /// `checks` the framebuffer gets opacity, and colours multiplied by it.
+  void show(std::uint32_t framebuffer, const GlViewport& viewport, Transfer transfer, bool checks = true);
 
   /// The finished picture, or its settings.crop, and the numbers of rays: `primary`, and all others as `others`. Error:
   /// the driver has stopped the work of a pixel.

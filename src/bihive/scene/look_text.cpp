@@ -1,8 +1,13 @@
 #include "bihive/scene/look_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "bihive/base/near_name.h"
 #include "bihive/base/parse_number.h"
 #include "bihive/image/colour_text.h"
 #include "bihive/scene/clips.h"
@@ -13,6 +18,16 @@ namespace {
 
 Error unexpected(const std::string& expected, const std::string& found) {
   return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
+}
+
+std::vector<std::string> colour_names() {
+  std::vector<std::string> names;
+  for (std::string_view rest = kColourNames; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    names.emplace_back(rest.substr(0, comma));
+    rest.remove_prefix(std::min(comma + 2, rest.size()));
+  }
+  return names;
 }
 
 std::optional<double> number_in(std::string_view text, double min, double max) {
@@ -126,7 +141,10 @@ Result<LookAction> look_action_from_text(std::string_view name, const std::strin
 Result<ColourChoice> colour_choice_from_text(const std::string& text) {
   if (const std::optional<Vec3d> light = light_from(text)) return ColourChoice(*light);
   if (colour_from_text(text, Transfer::srgb)) return ColourChoice(text);
-  return unexpected("#rrggbb, r,g,b with numbers from 0 to 1, or one of " + std::string(kColourNames), text);
+  Error error = unexpected("#rrggbb, r,g,b with numbers from 0 to 1, or one of " + std::string(kColourNames), text);
+  if (const std::string near = near_name(text, colour_names()); !near.empty())
+    error.hint = "did you mean \"" + near + "\"?";
+  return error;
 }
 
 }  // namespace bihive

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bihive/base/json_text.h"
+#include "bihive/base/near_name.h"
 #include "bihive/scene/builtin_styles.h"
 #include "bihive/scene/json_parts.h"
 #include "bihive/scene/look_json.h"
@@ -116,7 +117,9 @@ Result<Style> style_named(std::string_view name) {
     if (style == name) return style_from(*json_from_text<json>(text()), style);
     known += (known.empty() ? "" : ", ") + style;
   }
-  return Error{"there is no style \"" + std::string(name) + "\"", "", 0, 0, "there are " + known + ", or a file"};
+  const std::string near = near_name(name, style_names());
+  return Error{"there is no style \"" + std::string(name) + "\"", "", 0, 0,
+               (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "there are " + known + ", or a file"};
 }
 
 }  // namespace bihive

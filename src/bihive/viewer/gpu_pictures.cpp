@@ -1,12 +1,50 @@
 #include "bihive/viewer/gpu_pictures.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "bihive/image/png_pixels.h"
 #include "bihive/viewer/shown_image.h"
 
 namespace bihive {
+namespace {
+
+// OpenGL's rows count from below, and its colours are multiplied by their opacity.
+
+PngPixels from_framebuffer(const std::vector<std::uint8_t>& rgba, int width, int height, bool with_opacity) {
+  PngPixels pixels{width, height, with_opacity ? 4 : 3, 8, {}};
+  pixels.bytes.reserve(pixels.row_bytes() * std::size_t(height));
+  for (int y = height - 1; y >= 0; --y)
+    for (int x = 0; x < width; ++x) {
+      const std::uint8_t* const pixel = &rgba[std::size_t(4) * (std::size_t(y) * std::size_t(width) + std::size_t(x))];
+      const int opacity = with_opacity ? pixel[3] : 255;
+      for (int channel = 0; channel < 3; ++channel)
+        pixels.bytes.push_back(static_cast<std::uint8_t>(
+            opacity == 0 ? 0 : std::min(255, (pixel[channel] * 255 + opacity / 2) / opacity)));
+      if (with_opacity) pixels.bytes.push_back(pixel[3]);
+    }
+  return pixels;
+}
+
+std::vector<std::uint8_t> for_texture(const PngPixels& pixels) {
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(std::size_t(4) * std::size_t(pixels.width) * std::size_t(pixels.height));
+  const auto channels = std::size_t(pixels.channels);
+  for (int y = pixels.height - 1; y >= 0; --y)
+    for (int x = 0; x < pixels.width; ++x) {
+      const std::uint8_t* const pixel =
+          &pixels.bytes[channels * (std::size_t(y) * std::size_t(pixels.width) + std::size_t(x))];
+      const int opacity = channels == 4 ? pixel[3] : 255;
+      for (int channel = 0; channel < 3; ++channel)
+        rgba.push_back(static_cast<std::uint8_t>((pixel[channel] * opacity + 127) / 255));
+      rgba.push_back(static_cast<std::uint8_t>(opacity));
+    }
+  return rgba;
+}
+
+}  // namespace
 
 Result<std::unique_ptr<GpuPictures>> GpuPictures::create(const GlFunctions& functions) {
   Result<GlRenderer> renderer = GlRenderer::create(functions);
@@ -38,7 +76,7 @@ Status GpuPictures::begin(const Scene& scene, bool new_lights, const RenderSetti
 
 Status GpuPictures::keep(const Scene& scene, const RenderSettings& whole) {
   if (Status status = make_room(settings_.width_px, settings_.height_px); !status) return status;
-  renderer_.show(framebuffer_, {0, 0, width_, height_}, transfer_);
+  renderer_.show(framebuffer_, {0, 0, width_, height_}, transfer_, checks_);
   return whole.labels.any() ? put_labels(scene, whole) : Done{};
 }
 
@@ -60,30 +98,17 @@ Status GpuPictures::make_room(int width_px, int height_px) {
   return Done{};
 }
 
-// The CPU draws the labels, as on its own pictures. OpenGL's rows count from below.
+// The CPU draws the labels, as on its own pictures.
 Status GpuPictures::put_labels(const Scene& scene, const RenderSettings& whole) {
   std::vector<std::uint8_t> rgba(std::size_t(4) * std::size_t(width_) * std::size_t(height_));
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 4);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  Image image{width_, height_, {}};
-  image.rgb.reserve(rgba.size() / 4 * 3);
-  for (int y = height_ - 1; y >= 0; --y)
-    for (int x = 0; x < width_; ++x) {
-      const std::uint8_t* const pixel = &rgba[std::size_t(4) * (std::size_t(y) * std::size_t(width_) + std::size_t(x))];
-      image.rgb.insert(image.rgb.end(), pixel, pixel + 3);
-    }
-  image = labelled(std::move(image), scene, whole);
+  PngPixels pixels = labelled(from_framebuffer(rgba, width_, height_, /*with_opacity=*/!checks_), scene, whole);
 
-  if (Status status = make_room(image.width, image.height); !status) return status;
-  rgba.clear();
-  for (int y = height_ - 1; y >= 0; --y)
-    for (int x = 0; x < width_; ++x) {
-      const std::uint8_t* const pixel =
-          &image.rgb[std::size_t(3) * (std::size_t(y) * std::size_t(width_) + std::size_t(x))];
-      rgba.insert(rgba.end(), {pixel[0], pixel[1], pixel[2], 255});
-    }
+  if (Status status = make_room(pixels.width, pixels.height); !status) return status;
+  rgba = for_texture(pixels);
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   gl_.BindTexture(GL_TEXTURE_2D, texture_);

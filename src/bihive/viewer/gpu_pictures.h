@@ -30,6 +30,9 @@ class GpuPictures {
   /// are new.
   Status begin(const Scene& scene, bool new_lights, const RenderSettings& settings);
 
+  /// False: instead of grey checks, pictures with a transparent background get opacity.
+  void show_checks(bool checks) { checks_ = checks; }
+
   /// Copies the complete passes, with the labels of `whole`, the settings of the picture in its full size
   /// (viewer/shown_image.h); show() then draws this copy. Error: no room for it.
   Status keep(const Scene& scene, const RenderSettings& whole);
@@ -49,6 +52,7 @@ class GpuPictures {
   GlFunctions gl_;
   GlRenderer renderer_;
   bool abandoned_ = false;
+  bool checks_ = true;
   RenderSettings settings_;  // of the unfinished picture
   Transfer transfer_ = Transfer::srgb;
   GLuint texture_ = 0, framebuffer_ = 0;  // of the kept picture

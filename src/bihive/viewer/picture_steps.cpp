@@ -1,9 +1,11 @@
 #include "bihive/viewer/picture_steps.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
+#include "bihive/image/png_pixels.h"
 #include "bihive/viewer/shown_image.h"
 
 namespace bihive {
@@ -134,17 +136,37 @@ Status PictureSteps::begin_step(const PictureSubject& subject, PictureStep step)
   return Done{};
 }
 
+// The film as the image.
+void PictureSteps::put_image(const PictureSubject& subject) {
+  const Scene& scene = subject.shown.scene;
+  const RenderSettings whole = whole_picture(subject);
+  opacity_.clear();
+  if (checks_ || film_.coverage.empty()) {
+    image_ = image_to_show(film_, subject.settings.view, scene.picture.transfer);
+    if (whole.labels.any()) image_ = labelled(std::move(image_), scene, whole);
+    return;
+  }
+  const Transfer curve = subject.settings.view == View::shaded ? scene.picture.transfer : Transfer::none;
+  PngPixels pixels = png_pixels_from_film(film_, curve, 8);
+  if (whole.labels.any()) pixels = labelled(std::move(pixels), scene, whole);
+  const std::size_t count = pixels.bytes.size() / 4;
+  image_ = {pixels.width, pixels.height, {}};
+  image_.rgb.resize(3 * count);
+  opacity_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::copy_n(&pixels.bytes[4 * i], 3, &image_.rgb[3 * i]);
+    opacity_[i] = pixels.bytes[4 * i + 3];
+  }
+}
+
 void PictureSteps::take_cpu(const PictureSubject& subject, bool& drawn) {
   if (!picture_->finished()) return;
   Rendered rendered = picture_->take();
-  const Scene& scene = subject.shown.scene;
-  image_ = image_to_show(rendered.film, subject.settings.view, scene.picture.transfer);
-  const RenderSettings whole = whole_picture(subject);
-  if (whole.labels.any()) image_ = labelled(std::move(image_), scene, whole);
+  film_ = std::move(rendered.film);
+  put_image(subject);
   const RenderCounts& rays = rendered.rays;
   const auto all = static_cast<double>(rays.primary + rays.shadow + rays.reflected + rays.transmitted + rays.ambient);
   if (rendered.render_ms > 0) mray_per_s_ = all / rendered.render_ms / 1000;
-  film_ = std::move(rendered.film);
   picture_.reset();
   drawn = true;
   finish_step(subject);

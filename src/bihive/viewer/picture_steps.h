@@ -1,7 +1,9 @@
 // Draws pictures in steps, coarse while something moves, ever finer at rest, by either engine.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/base/timer.h"
@@ -35,17 +37,25 @@ class PictureSteps {
   /// Call it before the scene, its trees or the GPU's renderer go away or are used for something else. The unfinished
   /// picture releases them, and the next call of go_on() restarts a step.
   void drop_step();
-  void forget_image() { image_ = {}; }
+  void forget_image() {
+    image_ = {};
+    opacity_.clear();
+  }
+  /// False: instead of grey checks, pictures with a transparent background get opacity.
+  void show_checks(bool checks) { checks_ = checks; }
 
   bool at_rest() const { return settled_ && !restart_; }
   /// As Viewer::frame(). After an Error nothing is drawn until something changes.
   Result<FrameReport> frame(const PictureSubject& subject, double budget_ms);
   /// The last picture of the CPU engine.
   const Image& image() const { return image_; }
+  /// One byte for each of its pixels; empty: it is opaque.
+  const std::vector<std::uint8_t>& opacity() const { return opacity_; }
 
  private:
   Status go_on(const PictureSubject& subject, double budget_ms, bool& drawn);
   Status begin_step(const PictureSubject& subject, PictureStep step);
+  void put_image(const PictureSubject& subject);
   void take_cpu(const PictureSubject& subject, bool& drawn);
   Status take_gpu(const PictureSubject& subject, bool& drawn);
   void finish_step(const PictureSubject& subject);
@@ -68,6 +78,8 @@ class PictureSteps {
   std::optional<SlicedPicture> picture_;  // on the CPU
   Film film_;                             // the next picture takes its memory
   Image image_;
+  std::vector<std::uint8_t> opacity_;
+  bool checks_ = true;
   int shown_samples_ = 0;  // on the graphics processor
   double spent_ms_ = 0;
 

@@ -28,7 +28,10 @@ Status set_background(Scene& scene, const std::string& background) {
   scene.picture.transparent = background == kNoBackground;
   if (scene.picture.transparent) return Done{};
   const Result<ColourChoice> choice = colour_choice_from_text(background);
-  if (!choice) return look_error("background: " + choice.error().message, "or \"none\" for a transparent one");
+  if (!choice)
+    return look_error(
+        "background: " + choice.error().message,
+        choice.error().hint + (choice.error().hint.empty() ? "" : " ") + "or \"none\" for a transparent one");
   // As --background does: numbers are light, texts what the screen shows.
   if (const auto* light = std::get_if<Vec3d>(&*choice))
     scene.background = *light;

@@ -32,23 +32,38 @@ struct Between {
   }
 };
 
-Image enlarged_image(const Image& image, int width, int height) {
-  Image large{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * height)};
+// Colours count by their opacity: a clear pixel has none to give to its neighbours.
+void mix(const std::uint8_t* const (&corners)[4], const double (&shares)[4], int channels, std::uint8_t* out) {
+  double sums[4] = {0, 0, 0, 0}, all = 0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const double opacity = channels == 4 ? corners[corner][3] : 1;
+    const double share = shares[corner] * opacity;
+    all += share;
+    for (int channel = 0; channel < 3; ++channel) sums[channel] += share * corners[corner][channel];
+  }
+  for (int channel = 0; channel < 3; ++channel)
+    out[channel] = static_cast<std::uint8_t>(all > 0 ? std::floor(sums[channel] / all + 0.5) : 0);
+  if (channels == 4) out[3] = static_cast<std::uint8_t>(std::floor(all + 0.5));
+}
+
+PngPixels enlarged(const PngPixels& image, int width, int height) {
+  const auto channels = static_cast<std::ptrdiff_t>(image.channels);
+  PngPixels large{width, height, image.channels, 8, {}, image.is_srgb};
+  large.bytes.resize(large.row_bytes() * static_cast<std::size_t>(height));
   std::vector<Between> columns;
   columns.reserve(static_cast<std::size_t>(width));
   for (int x = 0; x < width; ++x) columns.emplace_back(x, width, image.width);
   parallel_for(0, height, [&](std::int64_t row) {
     const Between y(static_cast<int>(row), height, image.height);
-    const std::uint8_t* const upper = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(y.low) * image.width;
-    const std::uint8_t* const lower = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(y.high) * image.width;
-    std::uint8_t* out = large.rgb.data() + 3 * static_cast<std::ptrdiff_t>(row) * width;
-    for (const Between& x : columns)
-      for (int channel = 0; channel < 3; ++channel) {
-        const auto mixed = [&](const std::uint8_t* line) {
-          return (1 - x.share) * line[3 * x.low + channel] + x.share * line[3 * x.high + channel];
-        };
-        *out++ = static_cast<std::uint8_t>(std::floor((1 - y.share) * mixed(upper) + y.share * mixed(lower) + 0.5));
-      }
+    const std::uint8_t* const upper = image.bytes.data() + channels * y.low * image.width;
+    const std::uint8_t* const lower = image.bytes.data() + channels * y.high * image.width;
+    std::uint8_t* out = large.bytes.data() + channels * row * width;
+    for (const Between& x : columns) {
+      mix({upper + channels * x.low, upper + channels * x.high, lower + channels * x.low, lower + channels * x.high},
+          {(1 - y.share) * (1 - x.share), (1 - y.share) * x.share, y.share * (1 - x.share), y.share * x.share},
+          image.channels, out);
+      out += channels;
+    }
   });
   return large;
 }
@@ -72,14 +87,18 @@ Image image_to_show(const Film& film, View view, Transfer transfer) {
 }
 
 Image labelled(Image image, const Scene& scene, const RenderSettings& settings) {
+  PngPixels pixels = labelled(PngPixels{image.width, image.height, 3, 8, std::move(image.rgb)}, scene, settings);
+  return {pixels.width, pixels.height, std::move(pixels.bytes)};
+}
+
+PngPixels labelled(PngPixels pixels, const Scene& scene, const RenderSettings& settings) {
   RenderSettings of_labels = settings;
   of_labels.labels = possible_labels(scene, scene.camera, settings);
-  if (!of_labels.labels.any()) return image;
-  if (image.width != settings.width_px || image.height != settings.height_px)
-    image = enlarged_image(image, settings.width_px, settings.height_px);
-  PngPixels pixels{image.width, image.height, 3, 8, std::move(image.rgb)};
+  if (!of_labels.labels.any()) return pixels;
+  if (pixels.width != settings.width_px || pixels.height != settings.height_px)
+    pixels = enlarged(pixels, settings.width_px, settings.height_px);
   draw_labels(pixels, scene, of_labels);
-  return {pixels.width, pixels.height, std::move(pixels.bytes)};
+  return pixels;
 }
 
 }  // namespace bihive

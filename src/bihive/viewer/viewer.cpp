@@ -127,6 +127,7 @@ class Viewer::Implementation {
     Result<std::unique_ptr<GpuPictures>> gpu = GpuPictures::create(functions);
     if (!gpu) return gpu.error();
     gpu_ = std::move(*gpu);
+    gpu_->show_checks(checks_);
     return Done{};
   }
 
@@ -249,6 +250,14 @@ class Viewer::Implementation {
   }
 
   const Image& image() const { return steps_.image(); }
+  const std::vector<std::uint8_t>& opacity() const { return steps_.opacity(); }
+
+  void show_checks(bool checks) {
+    checks_ = checks;
+    steps_.show_checks(checks);
+    if (gpu_) gpu_->show_checks(checks);
+    steps_.start_anew();
+  }
 
   void show(std::uint32_t framebuffer, const GlViewport& viewport) {
     if (gpu_) gpu_->show(framebuffer, viewport);
@@ -295,6 +304,19 @@ class Viewer::Implementation {
       if (!done) return done.error();
       if (*done >= 1) return take_picture();
     }
+  }
+
+  Result<std::optional<Picked>> pick(double x_px, double y_px) {
+    if (!shown_ || settings_.view == View::tree) return std::optional<Picked>();
+    const Result<const Tracer*> tracer = shown_->trees->needed_by(settings_);
+    if (!tracer) return tracer.error();
+    const SphereSet& spheres = (*tracer)->spheres();
+    const Camera camera = relative_to(settings_.camera, spheres.origin());
+    const Ray ray = PixelRays(camera, size_.width, size_.height).at(x_px, y_px);
+    const Hit hit = (*tracer)->closest_hit(ray);
+    if (!hit.found() || hit.sphere_id < 0) return std::optional<Picked>();
+    const Vec3d local = to_double(ray.origin) + hit.t * to_double(ray.direction);
+    return std::optional(Picked{hit.sphere_id, spheres.in_world(local), length(local - camera.eye)});
   }
 
   std::string statistics_json() {
@@ -435,6 +457,7 @@ class Viewer::Implementation {
   std::shared_ptr<const FrameMaker> maker_;
   std::uint64_t maker_version_ = 0;
   std::uint64_t version_ = 0;  // of all that goes into a frame: look, copies, trees
+  bool checks_ = true;
   PictureSteps steps_;
   std::optional<PictureToSave> to_save_;
 };
@@ -520,6 +543,12 @@ Result<FrameReport> Viewer::frame(double budget_ms) {
 const Image& Viewer::image() const {
   return implementation_->image();
 }
+const std::vector<std::uint8_t>& Viewer::opacity() const {
+  return implementation_->opacity();
+}
+void Viewer::show_checks(bool checks) {
+  implementation_->show_checks(checks);
+}
 void Viewer::show(std::uint32_t framebuffer, const GlViewport& viewport) {
   implementation_->show(framebuffer, viewport);
 }
@@ -537,6 +566,9 @@ void Viewer::drop_picture() {
 }
 Result<PngPixels> Viewer::picture(int width_px, int height_px, int samples_per_pixel) {
   return implementation_->picture(width_px, height_px, samples_per_pixel);
+}
+Result<std::optional<Picked>> Viewer::pick(double x_px, double y_px) const {
+  return implementation_->pick(x_px, y_px);
 }
 std::string Viewer::statistics_json() const {
   return implementation_->statistics_json();

@@ -24,6 +24,7 @@
 #include "bihive/scene/scene.h"
 #include "bihive/viewer/frame_maker.h"
 #include "bihive/viewer/frame_report.h"
+#include "bihive/viewer/pick.h"
 #include "bihive/viewer/shown_scene.h"
 #include "bihive/viewer/viewer_look.h"
 #include "bihive/viewer/viewer_settings.h"
@@ -112,8 +113,13 @@ class Viewer {
   /// graphics processor.
   Result<FrameReport> frame(double budget_ms);
   /// The last picture of the CPU engine, `divisor` times smaller than the requested size, or with labels of that size;
-  /// display values. A transparent background is shown as grey checks.
+  /// display values.
   const Image& image() const;
+  /// The opacity of its pixels, one byte each; empty: all are opaque.
+  const std::vector<std::uint8_t>& opacity() const;
+  /// A transparent background is shown as grey checks. False: it is left transparent. image() then has opacity(), and
+  /// show() writes it, with colours multiplied by it. Call it before the first frame.
+  void show_checks(bool checks);
   /// The last picture of the GPU engine, stretched to the viewport. Draws nothing if there is none. The framebuffer
   /// must have one sample per pixel (no antialiasing).
   void show(std::uint32_t framebuffer, const GlViewport& viewport);
@@ -132,6 +138,10 @@ class Viewer {
   void drop_picture();
   /// The whole picture at once.
   Result<PngPixels> picture(int width_px, int height_px, int samples_per_pixel);
+
+  /// The sphere under (x, y) in pixels of the picture at rest, found by one exact ray of the camera; nothing if none is
+  /// there, or in the view of the tree. Error: as set().
+  Result<std::optional<Picked>> pick(double x_px, double y_px) const;
 
   /// Both trees' statistics for the current parameters as in `bihive stats --json`, with the bytes and the build time.
   /// Builds the trees that are not built yet. {"error": "..."} without a scene, or if memory is too small for a tree.

@@ -187,7 +187,8 @@ void take_rows(Members& members, std::vector<LookRow>& rows, Error& error) {
   }
 }
 
-// The parameters of the picture. Those that the member `set` names are the user's; without it, all that are present.
+// The parameters of the picture. With the member `set`, the user's are those that it names, and no others; without it,
+// all that are present are added to them.
 void take_parameters(Members& members, Overrides& user, Error& error) {
   Overrides found;
   for (Parameter parameter : picture_parameters()) {
@@ -198,6 +199,9 @@ void take_parameters(Members& members, Overrides& user, Error& error) {
   const bool says_which = members.find("set") != nullptr;
   members.take("set", of_user);
   if (!error.message.empty()) return;
+  if (says_which)
+    for (const Parameter& parameter : picture_parameters())
+      if (parameter.in_window) user.reset(parameter.id);
   for (const auto& [parameter, value] : found.all())
     if (!says_which || std::find(of_user.begin(), of_user.end(), parameter->id) != of_user.end())
       user.set(parameter->id, *value);

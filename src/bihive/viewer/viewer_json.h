@@ -16,11 +16,12 @@ namespace bihive {
 /// id. "set" names those that the user has set; the others are the scene's. Numbers come back exactly.
 std::string settings_to_json(const ViewerSettings& settings);
 
-/// Missing members come from `base`. Without "set" each parameter present is the user's. A limit of the tree is a
-/// number, "unlimited" (kUnlimited), or null, which leaves the choice to the engine. "replicate": [2,2,1], or null for
-/// the input's. Another projection without a shorter side keeps the size of objects at the distance of look_at. Error:
-/// not JSON, an unknown key, a wrong type, a number out of range; the message begins with the JSON pointer
-/// ("/camera/eye: ..."). Whether the camera sees anything is not checked here: Viewer::set() checks it.
+/// Missing members come from `base`. With "set" the user's parameters are those that it names, and no others; without
+/// it, those present are added. A limit of the tree is a number, "unlimited" (kUnlimited), or null, which leaves the
+/// choice to the engine. "replicate": [2,2,1], or null for the input's. Another projection without a shorter side keeps
+/// the size of objects at the distance of look_at. Error: not JSON, an unknown key, a wrong type, a number out of
+/// range; the message begins with the JSON pointer ("/camera/eye: ..."). Whether the camera sees anything is not
+/// checked here: Viewer::set() checks it.
 Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSettings& base = {});
 
 /// One line:
@@ -28,8 +29,8 @@ Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSet
 /// "nan_colour":"","crease":"chain","rows":[{"select":"chain A","action":"colour","value":"red"}]}.
 std::string viewer_look_to_json(const ViewerLook& look);
 
-/// Missing members come from `base`. Without "set" each parameter present is the user's. Errors as above. Whether the
-/// scene has such spheres and attributes is not checked here: Viewer::set_look() checks it.
+/// Missing members come from `base`. Errors as above. Whether the scene has such spheres and attributes is not checked
+/// here: Viewer::set_look() checks it.
 Result<ViewerLook> viewer_look_from_json(std::string_view json, const ViewerLook& base = {});
 
 /// The table of settings/parameter.h, an array with an object for each row.

@@ -11,7 +11,8 @@ uniform float samples;
 uniform bool srgb;
 uniform bool only_background;
 uniform vec3 background;
-uniform bool transparent;  // grey checks show through
+uniform bool transparent;  // grey checks show through, or the page behind
+uniform bool checks;
 uniform FILM_SAMPLER coverage;
 out vec4 shown;
 
@@ -33,6 +34,7 @@ void main() {
   radiance = clamp(radiance, 0.0, 1.0);
   if (srgb)
     radiance = vec3(srgb_from_linear(radiance.x), srgb_from_linear(radiance.y), srgb_from_linear(radiance.z));
-  if (transparent) radiance = mix(vec3(check_at(pixel)), radiance, covered / samples);
-  shown = vec4(radiance, 1.0);
+  float opacity = transparent ? covered / samples : 1.0;
+  // Browsers expect colours multiplied by their opacity.
+  shown = checks ? vec4(mix(vec3(check_at(pixel)), radiance, opacity), 1.0) : vec4(radiance * opacity, opacity);
 }

@@ -1,0 +1,23 @@
+// What a point of the picture shows: the sphere there, and all that is known of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bihive/math/vec3.h"
+#include "bihive/scene/scene.h"
+
+namespace bihive {
+
+struct Picked {
+  std::int64_t sphere = -1;  ///< its id in the shown set
+  Vec3d point;               ///< on its surface, in world units
+  double distance = 0;       ///< from the eye, in world units
+};
+
+/// {"sphere": id, "point": [x,y,z], "distance": d, "centre": [x,y,z], "radius": r, "attributes": {name: number, text or
+/// null}}: the attributes are those that selections know by name, but for place and radius. Elements and
+/// types with labels are texts.
+std::string picked_to_json(const Picked& picked, const Scene& scene);
+
+}  // namespace bihive
