@@ -85,11 +85,7 @@ struct Pile {
   std::size_t first_other, end_of_others;  ///< the others, in WideTree::others_in_piles
 };
 
-/// A ball inside a sphere, around its centre, that holds enclosed spheres (WideTree::outer).
-struct Core {
-  Vec3d centre;
-  double radius;
-};
+struct OuterTree;
 
 /// Immutable while anybody traces it: made by WideBuilder (wide/wide_builder.h) and handed out as
 /// std::shared_ptr<const WideTree>. An empty set has no nodes. Otherwise nodes[0] is the root, even of a single sphere.
@@ -114,11 +110,9 @@ struct WideTree {
   std::vector<Pile> piles;  ///< duplicates, by ascending ids; closest and any hit ignore them
   std::vector<std::uint32_t> others_in_piles;
 
-  /// Where many spheres lie wholly inside others, as shells around one centre do: the tree of all that do not. Closest
-  /// and any hit ask it first. Only a ray that comes to a core before its hit asks this tree, which has all spheres.
-  /// Null: there are no such spheres, or too few.
-  std::shared_ptr<const WideTree> outer;
-  std::vector<Core> cores;  ///< together they hold every sphere that `outer` leaves out
+  /// Where many spheres lie wholly inside others, as shells around one centre do: all others. Closest and any hit ask
+  /// it first, and this tree, which has all spheres, for few rays. Null: there are no such spheres, or few.
+  std::shared_ptr<const OuterTree> outer;
 
   AlignedBuffer node_memory, sphere_memory;  ///< memory of the arrays above
 
@@ -134,10 +128,27 @@ struct WideTree {
   /// the tree must outlive the image. Spheres of an image must not coincide if rays leave them.
   WideTree image(Vec3d by) const;
 
-  /// Bytes in use: nodes, spheres with their padding, repeated spheres, duplicates, the outer tree and its cores, and
-  /// this structure. All that tracing touches.
+  /// Bytes in use: nodes, spheres with their padding, repeated spheres, duplicates, the outer tree, and this structure.
+  /// All that tracing touches.
   std::int64_t used_bytes() const;
   /// Bytes held, with the reserve for a rebuild.
+  std::int64_t allocated_bytes() const;
+};
+
+/// A ball inside a sphere, around its centre, that holds enclosed spheres.
+struct Core {
+  Vec3d centre;
+  double radius;
+};
+
+/// The spheres that no other encloses. A ray that comes to a core before its hit may meet one of those that are left
+/// out.
+struct OuterTree {
+  WideTree tree;            ///< under the ids of the whole set; it knows all repeated spheres
+  std::vector<Core> cores;  ///< together they hold every sphere that is left out
+  WideTree around_cores;    ///< the enclosing spheres: sphere i has core i
+
+  std::int64_t used_bytes() const;
   std::int64_t allocated_bytes() const;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "bihive/wide/build/tuning.h"
 
@@ -25,7 +26,7 @@ class Finder {
         largest = i;
         radius = tree_.spheres.radius(i);
       }
-    if (side > kSidesOfCover * 2 * radius || cores_.size() == kMostCores) return;
+    if (largest < 0 || side > kSidesOfCover * 2 * radius) return;
 
     // Mark the enclosed spheres, or none if too few would be crossed.
     marked_.clear();
@@ -45,17 +46,16 @@ class Finder {
     if (crossed < kFewestCrossed) return;
     for (const std::int64_t i : marked_) kind(i) = Kind::enclosed;
     kind(largest) = Kind::encloses;
-    cores_.push_back(core);
+    found_.cores.push_back(core);
+    found_.enclosing.push_back(tree_.spheres.id(largest));
   }
 
-  EnclosedSpheres result() const {
-    EnclosedSpheres found;
-    found.cores = cores_;
-    if (cores_.empty()) return found;
+  EnclosedSpheres result() {
+    if (found_.cores.empty()) return {};
     for (std::int64_t i = 0; i < tree_.placed; ++i)
-      if (kinds_[static_cast<std::size_t>(i)] != Kind::enclosed) found.not_ids.push_back(tree_.spheres.id(i));
-    std::sort(found.not_ids.begin(), found.not_ids.end());
-    return found;
+      if (kind(i) != Kind::enclosed) found_.others.push_back(tree_.spheres.id(i));
+    std::sort(found_.others.begin(), found_.others.end());
+    return std::move(found_);
   }
 
  private:
@@ -64,7 +64,7 @@ class Finder {
   const WideTree& tree_;
   std::vector<Kind> kinds_;
   std::vector<std::int64_t> marked_;
-  std::vector<Core> cores_;
+  EnclosedSpheres found_;
 };
 
 double largest_radius(const WideTree& tree) {

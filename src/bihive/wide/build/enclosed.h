@@ -10,8 +10,9 @@
 namespace bihive {
 
 struct EnclosedSpheres {
-  std::vector<Core> cores;            ///< every enclosed sphere lies in one; empty: there are none, or too few
-  std::vector<std::int64_t> not_ids;  ///< the spheres in leaves that are not enclosed, ascending; empty without cores
+  std::vector<Core> cores;              ///< every enclosed sphere lies in one; empty: there are none, or too few
+  std::vector<std::int64_t> enclosing;  ///< the spheres around the cores
+  std::vector<std::int64_t> others;     ///< of the spheres in leaves, those that are not enclosed, ascending
 };
 
 /// Finds enclosed spheres of a finished tree. Takes time in proportion to the nodes, unless there are nodes that are

@@ -1,7 +1,6 @@
 // Tuning constants of the builder. They change the tree, and the speed of the build or of rays, but never an answer.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 #include "bihive/wide/wide_tree.h"
@@ -41,11 +40,9 @@ constexpr int kLevelsByCost = 40;
 
 // ---- Spheres wholly inside others ----
 
-/// A line through a sphere must cross this many of the spheres inside it, on average, for rays to leave them out: two
+/// A line through a sphere must cross this many of the spheres inside it, on average, for rays to leave them out: four
 /// leaves of them.
-constexpr std::int64_t kFewestCrossed = 32;
-/// Every ray is compared with every core.
-constexpr std::size_t kMostCores = 16;
+constexpr std::int64_t kFewestCrossed = 64;
 /// Only a node with sides of at most this many diameters of a sphere is searched for spheres inside that one.
 constexpr double kSidesOfCover = 1.25;
 /// Enclosed spheres lie this far below the surface, in stored units: deeper than the origins of rays that exit the

@@ -330,15 +330,15 @@ void WideBuilder::State::build_without_others(const SphereSet& spheres, const Wi
 void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
                                WideTree& tree) {
   tree.outer = nullptr;
-  tree.cores.clear();
   build_without_others(spheres, parameters, threads, tree);
   EnclosedSpheres enclosed = find_enclosed(tree);
   if (enclosed.cores.empty()) return;
-  const auto outer = std::make_shared<WideTree>();
-  build_part(spheres, enclosed.not_ids, parameters, threads, *outer);
-  outer->repeated = tree.repeated;  // a ray may exit an equal of an outer sphere
+  const auto outer = std::make_shared<OuterTree>();
+  build_part(spheres, enclosed.others, parameters, threads, outer->tree);
+  outer->tree.repeated = tree.repeated;  // a ray may exit an equal of an outer sphere
+  build_all(spheres.part(enclosed.enclosing), {}, threads, spheres.size(), outer->around_cores);
+  outer->cores = std::move(enclosed.cores);
   tree.outer = outer;
-  tree.cores = std::move(enclosed.cores);
 }
 
 WideBuilder::WideBuilder() : state_(std::make_shared<State>()) {}

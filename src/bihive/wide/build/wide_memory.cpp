@@ -59,12 +59,12 @@ WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParamet
   prediction.low_bytes = kTree + 16 * padded + low_nodes * kNode;
   prediction.high_bytes = kTree + 20 * padded + static_cast<std::int64_t>(most_nodes) * kNode;
 
-  // During the build: the spheres twice, their cells, every sphere repeated, splits and nodes in doubling memory, and
-  // huge-page alignment.
-  constexpr double kSpheresTwice = 2 * 20 + 2, kRepeated = 2 * sizeof(RepeatedSphere);
+  // During the build: the spheres twice, their cells, every sphere repeated, splits and nodes in doubling memory, an
+  // outer tree of nearly all spheres with the sets and lists that it is made of, and huge-page alignment.
+  constexpr double kSpheresTwice = 2 * 20 + 2, kRepeated = 2 * sizeof(RepeatedSphere), kOuter = 20 + 16 + 2 * 8 + 1;
   const double nodes = peak_nodes * double(kNode);
-  prediction.most_bytes = static_cast<std::int64_t>((kSpheresTwice + kRepeated) * double(padded) +
-                                                    2 * peak_leaves * double(sizeof(BinarySplit)) + 3 * nodes) +
+  prediction.most_bytes = static_cast<std::int64_t>((kSpheresTwice + kRepeated + kOuter) * double(padded) +
+                                                    2 * peak_leaves * double(sizeof(BinarySplit)) + 4 * nodes) +
                           (std::int64_t{16} << 20);
 
   // Leaves are usually nearly full. Their splits, and nodes: in subtrees, then together.

@@ -315,13 +315,13 @@ void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hi
 
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {
   if (tree.outer == nullptr) return wide::closest_hits_of_tree(tree, rays, order, hits);
-  wide::closest_hits_of_tree(*tree.outer, rays, order, hits);
+  wide::closest_hits_of_tree(tree.outer->tree, rays, order, hits);
   wide::closest_hits_in_cores(tree, rays, order, hits);
 }
 
 void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden) {
   if (tree.outer == nullptr) return wide::occluded_of_tree(tree, rays, order, hidden);
-  wide::occluded_of_tree(*tree.outer, rays, order, hidden);
+  wide::occluded_of_tree(tree.outer->tree, rays, order, hidden);
   wide::occluded_remaining(
       tree, rays, wide::rays_to_cores(tree, rays, nullptr, hidden), wide::memory_of_this_thread().to_cores,
       [](const WideTree& whole, const RaySpan& some, std::uint8_t* of_some) {
@@ -332,13 +332,13 @@ void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::ui
 
 Hit closest_hit(const WideTree& tree, const Ray& ray) {
   if (tree.outer == nullptr) return wide::closest_hit_of_ray(tree, ray);
-  const Hit hit = wide::closest_hit_of_ray(*tree.outer, ray);
+  const Hit hit = wide::closest_hit_of_ray(tree.outer->tree, ray);
   return wide::may_reach_core(tree, ray, hit.t) ? wide::closest_hit_of_ray(tree, ray) : hit;
 }
 
 bool occluded(const WideTree& tree, const Ray& ray) {
   if (tree.outer == nullptr) return wide::ray_occluded(tree, ray);
-  return wide::ray_occluded(*tree.outer, ray) ||
+  return wide::ray_occluded(tree.outer->tree, ray) ||
          (wide::may_reach_core(tree, ray, ray.t_max) && wide::ray_occluded(tree, ray));
 }
 

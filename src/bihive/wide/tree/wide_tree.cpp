@@ -5,8 +5,7 @@ namespace bihive {
 std::int64_t WideTree::used_bytes() const {
   const std::int64_t a_sphere = spheres.has_palette ? 16 : 20;
   return static_cast<std::int64_t>(sizeof(WideTree) + repeated.size() * sizeof(RepeatedSphere) +
-                                   piles.size() * sizeof(Pile) + others_in_piles.size() * sizeof(std::uint32_t) +
-                                   cores.size() * sizeof(Core)) +
+                                   piles.size() * sizeof(Pile) + others_in_piles.size() * sizeof(std::uint32_t)) +
          (outer != nullptr ? outer->used_bytes() : 0) + node_count * std::int64_t{sizeof(WideNode)} +
          (placed > 0 ? (placed + kWidth) * a_sphere : 0);
 }
@@ -32,9 +31,17 @@ WideTree WideTree::image(Vec3d by) const {
 std::int64_t WideTree::allocated_bytes() const {
   return static_cast<std::int64_t>(
              sizeof(WideTree) + repeated.capacity() * sizeof(RepeatedSphere) + piles.capacity() * sizeof(Pile) +
-             others_in_piles.capacity() * sizeof(std::uint32_t) + cores.capacity() * sizeof(Core) +
-             node_memory.capacity() + sphere_memory.capacity()) +
+             others_in_piles.capacity() * sizeof(std::uint32_t) + node_memory.capacity() + sphere_memory.capacity()) +
          (outer != nullptr ? outer->allocated_bytes() : 0);
+}
+
+std::int64_t OuterTree::used_bytes() const {
+  return tree.used_bytes() + around_cores.used_bytes() + static_cast<std::int64_t>(cores.size() * sizeof(Core));
+}
+
+std::int64_t OuterTree::allocated_bytes() const {
+  return tree.allocated_bytes() + around_cores.allocated_bytes() +
+         static_cast<std::int64_t>(cores.capacity() * sizeof(Core));
 }
 
 }  // namespace bihive
