@@ -9,9 +9,9 @@
  *   a query runs on the caller's thread with fewer than 8,192 rays or with 1,024 points or fewer, and each thread gets
  *   at least 4,096 rays. A number above 0 is what rays are shared among, 64 or more for each; points go to threads
  *   1,024 at a time.
- * - A function that returns int returns 0, or 1 after a failure; bihive_error_text() then says what was wrong, where,
- * and what to do. Its outputs are then undefined, but a handle to be made is NULL. Nothing throws, prints or ends the
- * process.
+ * - A function that returns int returns 0, 1 after a failure, or 2 (BIHIVE_CANCELLED) if its progress function
+ * cancelled it; bihive_error_text() then says what was wrong, where, and what to do. Its outputs are then undefined,
+ * but a handle to be made is NULL. Nothing throws, prints or ends the process.
  * - A handle is freed by its own *_free, which takes NULL too, when no thread uses it any more. Until then any number
  * of threads may use one handle at the same time: queries of a tree run beside each other, and pictures of a scene are
  * drawn one after the other.
@@ -38,6 +38,26 @@ BIHIVE_API const char* bihive_version(void);
 /* One line about the last failure on this thread; "" before the first. Valid until the next failure on this thread. */
 BIHIVE_API const char* bihive_error_text(void);
 
+/* ---- Progress, and the end of long work ---- */
+
+enum { BIHIVE_CANCELLED = 2 };
+
+/* Gets the finished share, 0 to 1, an estimate that never falls within a call. Returns 0 to go on, another number to
+ * cancel. */
+typedef int (*bihive_progress)(double done, void* context);
+
+/* From now on the calls of this thread to bihive_tree_new*, bihive_tree_update, bihive_scene_new*,
+ * bihive_scene_from_bytes and bihive_render call `progress`, with `context`, some twenty times per second. NULL: none
+ * again; each thread has its own.
+ * - It is called on the thread that made the call, which waits there while another one works, and never after the
+ *   return. The first call comes after 50 ms, so short work calls it never; there is no last one with 1.
+ * - It must return, so it must not throw or longjmp, and it must not use the handle that is being made, changed or
+ *   drawn.
+ * - A cancelled call returns BIHIVE_CANCELLED soon, usually within a tenth of a second. A handle to be made is NULL, a
+ *   tree to be updated is as before, a scene can be drawn again, and the pixels of `rgba` are undefined or as before.
+ * If the work ends first, the call returns 0. */
+BIHIVE_API void bihive_set_progress(bihive_progress progress, void* context);
+
 /* ---- Spheres and their tree ---- */
 
 typedef struct bihive_tree bihive_tree;
@@ -54,6 +74,12 @@ BIHIVE_API int bihive_tree_new(const double* xyz, const double* radii, int64_t c
  * without an end: give it a t_max. */
 BIHIVE_API int bihive_tree_new_in_cell(const double* xyz, const double* radii, int64_t count, const double* vectors,
                                        int threads, bihive_tree** tree);
+/* Moves all spheres of a tree, and builds it anew. From the first update on the tree keeps working memory for the next.
+ * `count` is bihive_tree_size(), and ids stay. `radii` NULL: as before. `vectors` NULL: the cell stays, if there is
+ * one; else the new vectors of a tree that was made in a cell. No other thread may use the tree meanwhile. After a
+ * failure the tree is as before. */
+BIHIVE_API int bihive_tree_update(bihive_tree* tree, const double* xyz, const double* radii, int64_t count,
+                                  const double* vectors, int threads);
 BIHIVE_API void bihive_tree_free(bihive_tree* tree);
 /* "", or a sentence: how many centres the rounding moved by more than 1 % of their radius, because the radii are too
  * small for the extent. Valid as long as the tree. */

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "bihive/base/watch.h"
+
 namespace bihive::c {
 namespace {
 
@@ -15,7 +17,8 @@ int failed(const char* text) noexcept {
 }
 
 int failed(const Error& error) {
-  return failed(error.to_string().c_str());
+  const int state = failed(error.to_string().c_str());
+  return is_cancelled(error) ? kCancelled : state;
 }
 
 const char* last_error() noexcept {

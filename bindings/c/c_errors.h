@@ -11,13 +11,15 @@ namespace bihive::c {
 
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
+constexpr int kCancelled = 2;
 
 /// Stores the text for bihive_error_text() of this thread, without heap memory; truncates very long ones.
 int failed(const char* text) noexcept;
+/// kCancelled if that is what the error says.
 int failed(const Error& error);
 const char* last_error() noexcept;
 
-/// body() returns kDone or kFailed.
+/// body() returns kDone, kFailed or kCancelled.
 template <class Body>
 int guarded(const Body& body) noexcept {
   try {

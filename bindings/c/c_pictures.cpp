@@ -27,6 +27,7 @@
 #include "bihive/settings/overrides.h"
 #include "bihive/settings/parameter_text.h"
 #include "c_errors.h"
+#include "c_progress.h"
 #include "c_spheres.h"
 
 /// A scene as read, its tree, and its user's settings.
@@ -68,7 +69,8 @@ void put_light(const Scene& from, Scene& to) {
   to.picture = from.picture;
 }
 
-int take_scene(LoadedScene loaded, const char* style, std::vector<RecordedFile> files, bihive_scene** scene) {
+int take_scene(LoadedScene loaded, const char* style, std::vector<RecordedFile> files, Work* work, double share_before,
+               bihive_scene** scene) {
   auto made = std::make_unique<bihive_scene>();
   made->source.version = version();
   made->source.commit = commit();
@@ -76,6 +78,7 @@ int take_scene(LoadedScene loaded, const char* style, std::vector<RecordedFile> 
   if (style != nullptr) made->style = style;
   made->loaded = std::move(loaded);
   put_light(made->loaded.scene, made->as_read);
+  const Section section(work, share_before, 1);
   auto tracer = Tracer::build(made->loaded.scene, Engine::automatic);
   if (!tracer) return failed(tracer.error());
   made->tracer.emplace(std::move(*tracer));
@@ -163,7 +166,7 @@ int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb,
                      bihive_scene** scene) {
   if (scene == nullptr) return failed("there is no place for the scene");
   *scene = nullptr;
-  return guarded([&] {
+  return guarded_long([&](Work* work) {
     if (count < 1) return failed("a scene needs at least one sphere");
     if (xyz == nullptr || radii == nullptr) return failed("the spheres are NULL");
     const auto look = style_or_default(style);
@@ -180,23 +183,26 @@ int bihive_scene_new(const double* xyz, const double* radii, const uint8_t* rgb,
           colour[i][axis] =
               static_cast<float>(linear_from_srgb(double(rgb[3 * i + static_cast<std::size_t>(axis)]) / 255));
     }
-    return take_scene(scene_of_spheres(std::move(file), "arrays", &*look), style, {}, scene);
+    return take_scene(scene_of_spheres(std::move(file), "arrays", &*look), style, {}, work, 0, scene);
   });
 }
 
 int bihive_scene_from_bytes(const char* bytes, size_t size, const char* name, const char* style, bihive_scene** scene) {
   if (scene == nullptr) return failed("there is no place for the scene");
   *scene = nullptr;
-  return guarded([&] {
+  return guarded_long([&](Work* work) {
     if (bytes == nullptr || name == nullptr) return failed("the bytes or their name are NULL");
     const auto look = style_or_default(style);
     if (!look) return failed(look.error());
+    constexpr double kShareOfReading = 0.7;
+    std::optional<Section> reading(std::in_place, work, 0, kShareOfReading);
     auto loaded = load_scene(std::string_view(bytes, size), name, {}, LooksOfFile::apply, &*look);
     if (!loaded) return failed(loaded.error());
+    reading.reset();
     Sha256 digest;
     digest.add(std::string_view(bytes, size));
     RecordedFile source{kInputFile, without_folder(name), digest.digits()};
-    return take_scene(std::move(*loaded), style, {std::move(source)}, scene);
+    return take_scene(std::move(*loaded), style, {std::move(source)}, work, kShareOfReading, scene);
   });
 }
 
@@ -231,7 +237,7 @@ int bihive_scene_set(bihive_scene* scene, const char* name, const char* value) {
 }
 
 int bihive_render(bihive_scene* scene, int width, int height, int samples, int threads, uint8_t* rgba) {
-  return guarded([&] {
+  return guarded_long([&](Work* work) {
     if (check_picture(scene, width, height, samples, threads, rgba) != kDone) return kFailed;
     const std::lock_guard<std::mutex> lock(scene->in_use);
     std::vector<std::string> warnings;
@@ -265,6 +271,7 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     if (!has_tree) own.emplace(value_or_fail(Tracer::build(input.scene, structure_of(engine), request.tree, threads)));
 
     // The picture.
+    const Section section(work, 0, 1);
     const Rendered rendered = value_or_fail(render(input.scene, own ? *own : *scene->tracer, settings));
     const PngPixels pixels = finished_pixels(rendered.film, input.scene, settings, 8);
     write_rgba(pixels, rgba);

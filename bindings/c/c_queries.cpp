@@ -18,9 +18,11 @@
 #include "bihive/wide/surface_of_hit.h"
 #include "bihive/wide/wide_builder.h"
 #include "c_errors.h"
+#include "c_progress.h"
 #include "c_spheres.h"
 
 struct bihive_tree {
+  std::unique_ptr<bihive::WideBuilder> builder;  // from the first update on, as it keeps working memory
   std::shared_ptr<const bihive::WideTree> tree;
   bihive::SphereSet spheres;
   std::string warning;
@@ -142,33 +144,67 @@ int for_rays(const bihive_tree& tree, const bihive_rays& rays, int threads, cons
   return status ? kDone : failed(status.error());
 }
 
+int check_spheres(const double* xyz, const double* radii, std::int64_t count, int threads) {
+  if (count < 0) return failed("the number of spheres is negative");
+  if (count > 0 && (xyz == nullptr || radii == nullptr)) return failed("the spheres are NULL");
+  if (threads < 0) return failed("the number of threads is negative; 0 takes all");
+  return kDone;
+}
+
+// Nine numbers.
+Result<Cell> cell_of(const double* vectors) {
+  Cell cell;
+  for (std::size_t i = 0; i < 9; ++i) cell.vectors[i / 3][static_cast<int>(i % 3)] = vectors[i];
+  for (const Vec3d& vector : cell.vectors)
+    if (!is_finite(vector)) return Error{"the vectors of the cell must be finite", "", 0, 0, ""};
+  return cell;
+}
+
+// Fills the tree, which stays as it is after a failure.
+int fill(bihive_tree& tree, WideBuilder& builder, const double* xyz, const double* radii, std::int64_t count,
+         const std::optional<Cell>& cell, int threads, Work* work) {
+  std::string warning;
+  auto spheres = spheres_of(xyz, radii, count, &warning);
+  if (!spheres) return failed(spheres.error());
+  spheres->cell() = cell;
+  const double share_of_tree = cell ? 0.9 : 1;
+  std::shared_ptr<const WideTree> built;
+  {
+    const Section section(work, 0, share_of_tree);
+    Result<std::shared_ptr<const WideTree>> result = builder.build(*spheres, {}, threads);
+    if (!result) return failed(result.error());
+    built = std::move(*result);
+  }
+  std::optional<PeriodicImages> images;
+  if (cell) {
+    const Section section(work, share_of_tree, 1);
+    auto result = PeriodicImages::of(*spheres, threads);
+    if (!result) return failed(result.error());
+    images = std::move(*result);
+  }
+  tree.tree = std::move(built);
+  tree.spheres = std::move(*spheres);
+  tree.warning = std::move(warning);
+  tree.images = std::move(images);
+  return kDone;
+}
+
 // `vectors` holds the 9 numbers of the periodic cell; null without a cell.
 int make_tree(const double* xyz, const double* radii, std::int64_t count, const double* vectors, int threads,
               bihive_tree** tree) {
   if (tree == nullptr) return failed("there is no place for the tree");
   *tree = nullptr;
-  return guarded([&] {
-    if (count < 0) return failed("the number of spheres is negative");
-    if (count > 0 && (xyz == nullptr || radii == nullptr)) return failed("the spheres are NULL");
-    if (threads < 0) return failed("the number of threads is negative; 0 takes all");
-    std::string warning;
-    auto spheres = spheres_of(xyz, radii, count, &warning);
-    if (!spheres) return failed(spheres.error());
-    WideBuilder builder;
-    const auto built = builder.build(*spheres, {}, threads);
-    if (!built) return failed(built.error());
-    auto made =
-        std::make_unique<bihive_tree>(bihive_tree{*built, std::move(*spheres), std::move(warning), std::nullopt});
+  return guarded_long([&](Work* work) {
+    if (check_spheres(xyz, radii, count, threads) != kDone) return kFailed;
+    std::optional<Cell> cell;
     if (vectors != nullptr) {
-      Cell cell;
-      for (std::size_t i = 0; i < 9; ++i) cell.vectors[i / 3][static_cast<int>(i % 3)] = vectors[i];
-      for (const Vec3d& vector : cell.vectors)
-        if (!is_finite(vector)) return failed("the vectors of the cell must be finite");
-      made->spheres.cell() = cell;
-      auto images = PeriodicImages::of(made->spheres, threads);
-      if (!images) return failed(images.error());
-      made->images = std::move(*images);
+      const Result<Cell> given = cell_of(vectors);
+      if (!given) return failed(given.error());
+      cell = *given;
     }
+    auto made = std::make_unique<bihive_tree>();
+    WideBuilder builder;
+    if (const int state = fill(*made, builder, xyz, radii, count, cell, threads, work); state != kDone) return state;
     *tree = made.release();
     return kDone;
   });
@@ -197,6 +233,33 @@ int bihive_tree_new_in_cell(const double* xyz, const double* radii, int64_t coun
                             bihive_tree** tree) {
   if (vectors == nullptr) return failed("the vectors of the cell are NULL");
   return make_tree(xyz, radii, count, vectors, threads, tree);
+}
+
+int bihive_tree_update(bihive_tree* tree, const double* xyz, const double* radii, int64_t count, const double* vectors,
+                       int threads) {
+  return guarded_long([&](Work* work) {
+    if (tree == nullptr) return failed("the tree is NULL");
+    const std::int64_t size = tree->spheres.size();
+    std::vector<double> same_radii;
+    if (radii == nullptr && count == size) {
+      same_radii.resize(static_cast<std::size_t>(size));
+      for (std::int64_t id = 0; id < size; ++id) same_radii[static_cast<std::size_t>(id)] = tree->spheres.radius(id);
+      radii = same_radii.data();
+    }
+    if (count != size)
+      return failed(Error{"the tree has " + std::to_string(size) + " spheres, and these are " + std::to_string(count),
+                          "", 0, 0, "make another tree"});
+    if (check_spheres(xyz, radii, count, threads) != kDone) return kFailed;
+    std::optional<Cell> cell = tree->spheres.cell();
+    if (vectors != nullptr) {
+      if (!cell) return failed("the tree has no cell: make it with bihive_tree_new_in_cell()");
+      const Result<Cell> given = cell_of(vectors);
+      if (!given) return failed(given.error());
+      cell = *given;
+    }
+    if (tree->builder == nullptr) tree->builder = std::make_unique<WideBuilder>();
+    return fill(*tree, *tree->builder, xyz, radii, count, cell, threads, work);
+  });
 }
 
 void bihive_tree_free(bihive_tree* tree) {

@@ -70,6 +70,51 @@ static void test_rays(const bihive_tree* tree) {
   EXPECT_ERROR(bihive_occluded(tree, NULL, 0, hidden), "NULL");
 }
 
+/* What a tree answers after it has been moved is what a new tree answers. */
+static void test_update(void) {
+  const double moved[] = {0, 0, 0, 4, 3, 0, 8, 0, 0, 4, 3, 0}, larger[] = {1, 2, 1, 0.5};
+  const double away[] = {0, 0, 0, NAN, 3, 0, 8, 0, 0, 4, 3, 0};
+  const double vectors[] = {10, 0, 0, 0, 0, 0, 0, 0, 0}, wider[] = {20, 0, 0, 0, 0, 0, 0, 0, 0};
+  const double point[] = {4, 3, 2}, beside[] = {-11, 0, 0};
+  double distance = 0;
+  int64_t id = -1;
+  bihive_tree *tree = NULL, *in_cell = NULL;
+  EXPECT(bihive_tree_new(kPlaces, kRadii, 4, 1, &tree) == 0);
+  for (int turn = 0; turn < 3; ++turn) {
+    EXPECT(bihive_tree_update(tree, moved, NULL, 4, NULL, 1) == 0);
+    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, 1, &distance, &id) == 0);
+    EXPECT(id == 1 && distance == 1);
+    EXPECT(bihive_tree_update(tree, moved, larger, 4, NULL, 1) == 0);
+    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, 1, &distance, &id) == 0);
+    EXPECT(id == 1 && distance == 0);
+    EXPECT(bihive_tree_update(tree, kPlaces, kRadii, 4, NULL, 1) == 0);
+    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
+    EXPECT(id == 1 && distance == sqrt(13));
+  }
+
+  /* A refused update changes nothing. */
+  EXPECT_ERROR(bihive_tree_update(tree, moved, NULL, 3, NULL, 1), "4 spheres");
+  EXPECT_ERROR(bihive_tree_update(tree, moved, kRadii, 3, NULL, 1), "4 spheres");
+  EXPECT_ERROR(bihive_tree_update(tree, away, NULL, 4, NULL, 1), "sphere 1");
+  EXPECT_ERROR(bihive_tree_update(tree, NULL, NULL, 4, NULL, 1), "NULL");
+  EXPECT_ERROR(bihive_tree_update(NULL, moved, NULL, 4, NULL, 1), "NULL");
+  EXPECT_ERROR(bihive_tree_update(tree, moved, NULL, 4, vectors, 1), "bihive_tree_new_in_cell");
+  EXPECT(bihive_tree_size(tree) == 4);
+  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
+  EXPECT(id == 1 && distance == sqrt(13));
+  bihive_tree_free(tree);
+
+  /* The cell stays, or gets other vectors. The image of sphere 2 at -12, and the one of sphere 0 at -10. */
+  EXPECT(bihive_tree_new_in_cell(moved, kRadii, 4, vectors, 1, &in_cell) == 0);
+  EXPECT(bihive_tree_update(in_cell, kPlaces, NULL, 4, NULL, 1) == 0);
+  EXPECT(bihive_nearest(in_cell, beside, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
+  EXPECT(id == 0 && distance == 1);
+  EXPECT(bihive_tree_update(in_cell, kPlaces, NULL, 4, wider, 1) == 0);
+  EXPECT(bihive_nearest(in_cell, beside, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
+  EXPECT(id == 2 && distance == 1);
+  bihive_tree_free(in_cell);
+}
+
 /* Far from 0 no digit is lost that the set's own extent has room for. */
 static void test_far_spheres(void) {
   const double places[] = {500000.03, 5400000.01, 100, 500000.23, 5400000.01, 100};
@@ -358,6 +403,7 @@ static void test_pictures(void) {
 int main(int argc, char** argv) {
   EXPECT(strcmp(bihive_error_text(), "") == 0);
   test_trees();
+  test_update();
   test_far_spheres();
   test_cells();
   test_pictures();

@@ -95,6 +95,9 @@ class Types(ProgramTest):
                 "bh.render('demo', ao='yes')\n"
                 "bh.render('demo', opacty_rule='once')\n"
                 "bh.read('demo', frame='x')\n"
+                "bh.film('demo', 'a.mp4', turntable=360, size=(8, 6), samples=1, turn_axis='z', colour_range='film')\n"
+                "bh.film('demo', 'a.mp4', turn_axis='w')\n"
+                "bh.film('demo', 'a.mp4', turntabel=3)\n"
                 "hits = bh.Tree(bh.read('demo')).closest([[0, 0, 0]], [1, 0, 0])\n"
                 "reveal_type(hits.t)\n"
                 "reveal_type(hits.normals())\n"
@@ -104,11 +107,31 @@ class Types(ProgramTest):
             capture_output=True, text=True, timeout=PATIENCE_S, env={**os.environ, "MYPYPATH": os.path.dirname(PACKAGE)},
         )
         found = [line.split("user.py:")[1] for line in done.stdout.splitlines() if "user.py:" in line]
-        for line, says in ((3, 'Argument "ao"'), (4, 'did you mean "opacity_rule"'), (5, 'Argument "frame"')):
+        for line, says in ((3, 'Argument "ao"'), (4, 'did you mean "opacity_rule"'), (5, 'Argument "frame"'), (7, 'Argument "turn_axis"'), (8, 'did you mean "turntable"')):
             self.assertTrue(any(one.startswith(f"{line}: error: ") and says in one for one in found), done.stdout)
-        for line in (7, 8):
+        for line in (10, 11):
             self.assertTrue(any(one.startswith(f"{line}: note: ") and "numpy.floating" in one for one in found), done.stdout)
-        self.assertEqual(sum(": error: " in one for one in found), 3, done.stdout)
+        self.assertEqual(sum(": error: " in one for one in found), 5, done.stdout)
+
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed: scripts/setup test installs it")
+    def test_stubtest(self):
+        settings = self.path("mypy.ini")
+        with open(settings, "w", encoding="utf-8") as file:
+            file.write("[mypy]\nenable_incomplete_feature = Unpack\n")
+        allowed = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stubtest_allowed.txt")
+        # Debian's mypy is a module of Debian's python.
+        done = subprocess.run(
+            ["/usr/bin/python3", "-m", "mypy.stubtest", "bihive", "--concise", "--mypy-config-file", settings, "--allowlist", allowed],
+            capture_output=True, text=True, timeout=PATIENCE_S, cwd=self.folder,
+            env={**os.environ, "PYTHONPATH": os.path.dirname(PACKAGE)},
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_films_know_their_options(self):
+        from bihive import _film, _option_types
+
+        own = set(_option_types.FilmOptions.__annotations__) - set(_option_types.RenderOptions.__annotations__)
+        self.assertEqual(own, {*_film._OF_PROGRAM, *_film._FLAGS_OF_PROGRAM} - {"frames"})
 
     def test_the_stub_names_what_the_module_has(self):
         from bihive import _bihive
@@ -119,7 +142,7 @@ class Types(ProgramTest):
         self.assertEqual(stated, {name for name in vars(_bihive) if not name.startswith("__")} | {"__version__"})
         for name in ["Spheres", "Picture", "Tree"]:
             body = re.search(rf"^class {name}:\n((?:    .*\n|\n)+)", stub, re.M).group(1)
-            members = set(re.findall(r"^    (?:def )?(\w+)", body, re.M)) - {"__len__"}
+            members = set(re.findall(r"^    def (\w+)", body, re.M)) - {"__len__"}
             real = {member for member in vars(getattr(_bihive, name)) if not member.startswith("_")}
             self.assertEqual(members, real, name)
 

@@ -90,6 +90,33 @@ class SameBits(ProgramTest):
         self.assert_same("a.npy", ["--colour-by", "r:coolwarm"], bh.Spheres(four), colour_by="r:coolwarm")
         self.assert_same("a.npy", ["--radius", "0.05"], radius=0.05)
 
+    def test_copies_read_as_spheres_of_their_own(self):
+        self.write("cell.extxyz", '2\nLattice="2 0 0 0 3 0 0 0 4" Properties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 1.5\nO 1 1 1 -1\n')
+        s = bh.read(self.path("cell.extxyz"), replicate=(2, 3, 1))
+        self.assert_same("cell.extxyz", ["--replicate", "2x3x1"], s)
+        self.assertEqual(len(s), 12)
+        shifts = [[2 * i, 3 * j, 0] for i in range(2) for j in range(3)]
+        expected = {tuple(np.add(shift, at)) for shift in shifts for at in ([0, 0, 0], [1, 1, 1])}
+        self.assertEqual({tuple(at) for at in s.xyz.tolist()}, expected)
+        self.assertEqual(s.xyz[:2].tolist(), [[0, 0, 0], [1, 1, 1]])
+        self.assertEqual(s["q"].tolist(), [1.5, -1] * 6)
+        self.assertEqual(s.elements.tolist(), ["C", "O"] * 6)
+        self.assertEqual(s.cell.tolist(), [[4, 0, 0], [0, 9, 0], [0, 0, 4], [0, 0, 0]])
+        # They are an infinite crystal, as the two alone are.
+        one = bh.read(self.path("cell.extxyz"))
+        for points, radius in [(s.xyz, 3.5), ([[0.3, 0.2, 0.1]], 9.0)]:
+            small, large = (bh.Tree(some).within(points, radius, to="centre") for some in (one, s))
+            self.assertEqual(small.counts.tolist(), large.counts.tolist())
+            np.testing.assert_allclose(np.sort(small.distance), np.sort(large.distance), rtol=1e-6)
+        self.assertEqual(pickle.loads(pickle.dumps(s)), s)
+        self.assertEqual(len(s[bh.select(s, "element C and x < 1")]), 3)
+        with self.assertRaises(bh.Error) as caught:
+            bh.read(self.path("cell.extxyz"), replicate=(10000, 10000, 100))
+        self.assertIn("memory", str(caught.exception))
+        self.write("no_cell.xyz", "1\n\nC 0 0 0\n")
+        with self.assertRaises(bh.InputError):
+            bh.read(self.path("no_cell.xyz"), replicate=(2, 1, 1))
+
     def test_scenes_and_cells(self):
         self.succeed("scene", "four-spheres", "-o", "four.json")
         self.assert_same("four.json", ["--recursion", "3"], recursion=3)
@@ -129,6 +156,105 @@ class SameBits(ProgramTest):
     def test_any_number_of_threads(self):
         one = bh.render("demo", size=SIZE, threads=1)
         self.assertEqual(one, bh.render("demo", size=SIZE, threads=7))
+
+
+class ArraysOfLooks(ProgramTest):
+    """A row for each sphere: the pictures are those of looks for one sphere each, and of sets with these values."""
+
+    def setUp(self):
+        super().setUp()
+        rng = np.random.default_rng(8)
+        self.n = 20
+        self.xyz = rng.random((self.n, 3)) * 4
+        self.colours = rng.random((self.n, 3))
+        self.opacity = np.round(rng.random(self.n), 3)
+        self.radius = 0.1 + 0.5 * rng.random(self.n)
+        self.spheres = bh.Spheres(self.xyz, radius=0.4)
+        self.some = np.arange(self.n) % 3 > 0
+
+    def picture(self, spheres=None, **options):
+        return bh.render(self.spheres if spheres is None else spheres, size=SIZE, samples=1, camera=bh.Perspective(eye=(2, 2, 12), look_at=(2, 2, 2)), **options)
+
+    def test_they_are_looks_of_single_spheres(self):
+        for transfer in ("srgb", "none"):
+            for name, values in [("colour", self.colours), ("opacity", self.opacity)]:
+                single = [bh.Look([i], **{name: values[i]}) for i in np.flatnonzero(self.some)]
+                self.assertEqual(
+                    self.picture(looks=bh.Look(self.some, **{name: values}), transfer=transfer), self.picture(looks=single, transfer=transfer)
+                )
+                single = [bh.Look([i], **{name: values[i]}) for i in range(self.n)]
+                self.assertEqual(self.picture(**{name: values}, transfer=transfer), self.picture(looks=single, transfer=transfer))
+        self.assertNotEqual(self.picture(colour=self.colours), self.picture())
+
+    def test_they_are_values_of_sets(self):
+        self.assertEqual(self.picture(opacity=self.opacity), self.picture(bh.Spheres(self.xyz, radius=0.4, opacity=self.opacity)))
+        radius = np.where(self.some, self.radius, 0.4)
+        self.assertEqual(self.picture(looks=bh.Look(self.some, radius=self.radius)), self.picture(bh.Spheres(self.xyz, radius=radius)))
+        self.assertEqual(
+            self.picture(looks=bh.Look(radius=self.radius, radius_scale=0.5)), self.picture(bh.Spheres(self.xyz, radius=0.5 * self.radius))
+        )
+        self.assertEqual(
+            self.picture(looks=[bh.Look(radius_scale=3), bh.Look(radius=self.radius)]), self.picture(bh.Spheres(self.xyz, radius=self.radius))
+        )
+        light = bh.Spheres(self.xyz, radius=0.4, colour=bh.linear(self.colours))
+        self.assertEqual(self.picture(colour=bh.linear(self.colours)), self.picture(light))
+        names = ["orange" if one else "blue" for one in self.some]
+        self.assertEqual(self.picture(colour=names), self.picture(looks=[bh.Look(colour="blue"), bh.Look(self.some, colour="orange")]))
+        eight = (255 * self.colours).astype(np.uint8)
+        self.assertEqual(self.picture(colour=eight), self.picture(colour=eight / 255))
+
+    def test_later_looks_replace_earlier_ones(self):
+        array, one = bh.Look(colour=self.colours), bh.Look([3], colour="red")
+        changed = self.colours.copy()
+        changed[3] = 1, 0, 0
+        self.assertEqual(self.picture(looks=[array, one]), self.picture(colour=changed))
+        self.assertEqual(self.picture(looks=[one, array]), self.picture(colour=self.colours))
+        self.assertEqual(self.picture(colour=self.colours, looks=one), self.picture(colour=changed))
+        self.assertEqual(self.picture(looks=[bh.Look([0], show=False), array]), self.picture(looks=[array, bh.Look([0], show=False)]))
+        self.assertEqual(self.picture(colour=self.colours, select=self.some), self.picture(self.spheres[self.some], colour=self.colours[self.some]))
+
+    def test_they_can_be_compared_and_pickled_and_do_not_change_with_their_arrays(self):
+        values = self.opacity.copy()
+        look = bh.Look(opacity=values, colour=self.colours)
+        self.assertEqual(pickle.loads(pickle.dumps(look)), look)
+        self.assertEqual(look, bh.Look(opacity=self.opacity, colour=self.colours))
+        self.assertEqual(hash(look), hash(pickle.loads(pickle.dumps(look))))
+        self.assertNotEqual(look, bh.Look(opacity=self.opacity[::-1], colour=self.colours))
+        np.testing.assert_array_equal(np.asarray(look.opacity), self.opacity)
+        values[:] = 0
+        np.testing.assert_array_equal(np.asarray(look.opacity), self.opacity)
+
+    def test_the_report_says_that_there_was_an_array(self):
+        said = self.picture(looks=bh.Look(self.some, colour=self.colours, opacity=self.opacity, radius=self.radius)).report["settings"]["looks"]
+        self.assertIn("--colour (array)", said)
+        self.assertIn("--opacity (array)", said)
+        self.assertIn("radius (array)", said)
+
+    def test_what_does_not_fit_is_refused(self):
+        for make, argument in [
+            (lambda: self.picture(colour=self.colours[:5]), "colour"),
+            (lambda: self.picture(looks=bh.Look(opacity=self.opacity[:5])), "opacity"),
+            (lambda: self.picture(looks=bh.Look(radius=self.radius[:5])), "radius"),
+            (lambda: bh.Look(colour=np.zeros((4, 4))), "colour"),
+            (lambda: bh.Look(colour=2 * np.ones((4, 3))), "colour"),
+            (lambda: bh.Look(opacity=[0.5, 1.5]), "opacity"),
+            (lambda: bh.Look(opacity=[[0.5]]), "opacity"),
+            (lambda: bh.Look(radius=[1, -1]), "radius"),
+            (lambda: bh.Look(radius=[1, np.nan]), "radius"),
+            (lambda: bh.Look(radius=2), "radius"),
+            (lambda: bh.render("demo", size=SIZE, colour=np.zeros((1631, 3))), "colour"),
+        ]:
+            with self.assertRaises(bh.UsageError) as caught:
+                make()
+            self.assertEqual(caught.exception.argument, argument)
+        with self.assertRaises(bh.UsageError) as caught:
+            bh.render("demo", size=SIZE, looks=bh.Look(opacity=np.ones(1631)))
+        self.assertIn("bihive.read(path)", str(caught.exception))
+        # No file has the arrays, so no figure can be drawn again.
+        self.picture(colour=self.colours).save(self.path("a.png"))
+        with self.assertRaises(bh.Error) as caught:
+            bh.again(self.path("a.png"))
+        self.assertTrue(str(caught.exception))
 
 
 class Pictures(ProgramTest):
@@ -429,6 +555,46 @@ class Interrupts(ProgramTest):
             bh.render("scenario3", size=(4000, 4000), samples=64)
         # The module works on.
         bh.render("demo", size=SIZE)
+
+    def test_readings_and_buildings_report_and_end(self):
+        rng = np.random.default_rng(2)
+        xyz = rng.random((1_500_000, 3))
+        with open(self.path("long.xyz"), "w") as file:
+            file.write(f"{len(xyz)}\n\n")
+            np.savetxt(file, xyz, fmt="C %.5f %.5f %.5f")
+        path, s = self.path("long.xyz"), bh.Spheres(xyz, radius=0.001)
+        tree = bh.Tree(s, threads=1)
+        before = tree.nearest([0.5, 0.5, 0.5])
+
+        class Enough(Exception):
+            pass
+
+        def enough(done):
+            raise Enough(done)
+
+        for work in [
+            lambda progress: bh.read(path, progress=progress),
+            lambda progress: bh.Tree(s, threads=1, progress=progress),
+            lambda progress: bh.Tree(s, engine="reference", progress=progress),
+            lambda progress: tree.update(xyz + 0.1, progress=progress),
+        ]:
+            with self.assertRaises(Enough):
+                work(enough)
+            self.assertEqual(tree.nearest([0.5, 0.5, 0.5]), before)
+            shares = []
+            work(shares.append)
+            self.assertEqual((shares[-1], shares), (1, sorted(shares)))
+            self.assertGreater(len(shares), 1)
+        self.assertNotEqual(tree.nearest([0.5, 0.5, 0.5]), before)
+
+        def handler(number, frame):
+            raise Enough
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, handler))
+        for work in (lambda: bh.read(path), lambda: bh.Tree(s, engine="reference"), lambda: bh.render(path, size=SIZE)):
+            signal.setitimer(signal.ITIMER_REAL, 0.2)
+            with self.assertRaises(Enough):
+                work()
 
     def test_control_c_ends_rays(self):
         code = "import bihive as bh, numpy as np\nt = bh.Tree(bh.read('scenario1', count=4096), engine='brute')\n"

@@ -28,6 +28,92 @@ def rays(count):
     return RNG.normal(size=(count, 3)).astype(np.float32) * 3, RNG.normal(size=(count, 3)).astype(np.float32)
 
 
+class Counting(unittest.TestCase):
+    """Rays that do not see all spheres."""
+
+    def setUp(self):
+        rng = np.random.default_rng(5)
+        self.xyz = rng.normal(size=(400, 3))
+        self.spheres = bh.Spheres(self.xyz, radius=0.15 + 0.1 * rng.random(400), columns={"q": np.arange(400)})
+        self.xyz, self.radius = self.spheres.xyz, self.spheres.radius
+        self.tree = bh.Tree(self.spheres)
+        self.origins = rng.normal(size=(700, 3)).astype(np.float32) * 3
+        self.directions = rng.normal(size=(700, 3)).astype(np.float32)
+
+    def all_t(self, **limits):
+        return brute_force(self.xyz, self.radius, self.origins, self.directions, **limits)
+
+    def assert_answers(self, tree, counts, t_max=np.inf, **options):
+        """`counts`: bool (rays, spheres)."""
+        given = {**options, **({} if t_max == np.inf else {"t_max": t_max})}
+        t = np.where(counts, self.all_t(t_max=t_max), np.nan)
+        expected = np.where(np.isnan(t).all(1), np.inf, np.nanmin(np.where(np.isnan(t), np.inf, t), axis=1))
+        hits = tree.closest(self.origins, self.directions, **given)
+        np.testing.assert_allclose(hits.t, expected.astype(float), rtol=1e-12)
+        found = hits.id >= 0
+        self.assertTrue(counts[np.flatnonzero(found), hits.id[found]].all())
+        self.assertGreater(found.sum(), 20)
+        np.testing.assert_array_equal(tree.occluded(self.origins, self.directions, **given), found)
+        every = tree.all_hits(self.origins, self.directions, **given)
+        np.testing.assert_array_equal(every.counts, (~np.isnan(t)).sum(1))
+        first = tree.all_hits(self.origins, self.directions, k=1, **given)
+        np.testing.assert_array_equal(first.t, hits.t[found])
+        np.testing.assert_array_equal(first.id, hits.id[found])
+        self.assertEqual(len(hits.normals()), len(self.origins))
+        np.testing.assert_allclose(np.linalg.norm(hits.positions()[found] - self.xyz[hits.id[found]], axis=1), self.radius[hits.id[found]], rtol=1e-9)
+
+    def test_a_mask(self):
+        even = np.arange(400) % 2 == 0
+        counts = np.broadcast_to(even, (700, 400))
+        for mask in (even, np.flatnonzero(even), "index " + " ".join(map(str, range(0, 400, 2)))):
+            self.assert_answers(self.tree, counts, mask=mask)
+        self.assert_answers(self.tree, np.broadcast_to(np.arange(400) < 100, (700, 400)), mask="q < 100")
+        self.assert_answers(self.tree, np.broadcast_to(np.arange(400) < 400, (700, 400)))
+
+    def test_the_tree_of_a_mask_is_that_of_select_and_is_kept(self):
+        mask = np.arange(400) < 90
+        hits, other = self.tree.closest(self.origins, self.directions, mask=mask), bh.Tree(self.spheres, select=mask).closest(self.origins, self.directions)
+        np.testing.assert_array_equal(hits.t, other.t)
+        np.testing.assert_array_equal(hits.id, other.id)
+        kept = self.tree._masked
+        self.tree.closest(self.origins, self.directions, mask="q < 90")
+        self.assertIs(self.tree._masked, kept)
+        self.tree.update(self.xyz + 1)
+        moved = self.tree.closest(self.origins + np.float32(1), self.directions, mask=mask)
+        self.assertLess(np.mean(moved.id != hits.id), 0.01)
+
+    def test_within_a_selection(self):
+        tree = bh.Tree(self.spheres, select="q < 200")
+        self.assert_answers(tree, np.broadcast_to((np.arange(400) < 200) & (np.arange(400) >= 50), (700, 400)), mask="q >= 50")
+        nobody = tree.closest(self.origins, self.directions, mask="q > 300")
+        self.assertEqual(set(nobody.id.tolist()), {-1})
+
+    def test_exclude(self):
+        own = self.tree.closest(self.origins, self.directions).id
+        self.assertGreater((own >= 0).sum(), 50)
+        counts = np.arange(400) != own[:, None]
+        for t_max in (np.inf, 3.0):
+            self.assert_answers(self.tree, counts, t_max=t_max, exclude=own)
+        self.assert_answers(self.tree, np.broadcast_to(np.arange(400) != 7, (700, 400)), exclude=7)
+        self.assert_answers(self.tree, counts & (np.arange(400) >= 100), exclude=own, mask="q >= 100")
+        one = self.tree.closest(self.origins[0], self.directions[0], exclude=int(own[0]))
+        self.assertEqual(np.ndim(one.t), 0)
+
+    def test_spheres_that_are_met_at_the_same_distance(self):
+        twins = bh.Tree(bh.Spheres([[0.0, 0, 0], [0, 0, 0], [4, 0, 0]], radius=1))
+        hits = twins.closest([[-5.0, 0, 0]] * 4, [1, 0, 0], exclude=[-1, 0, 1, 2])
+        self.assertEqual((hits.t.tolist(), hits.id.tolist()), ([4, 4, 4, 4], [0, 1, 0, 0]))
+        self.assertFalse(bh.Tree(bh.Spheres([[0.0, 0, 0]], radius=1)).occluded([-5, 0, 0], [1, 0, 0], exclude=0))
+
+    def test_what_is_refused(self):
+        box = bh.Tree(bh.Spheres([[0.5, 0, 0]], radius=0.1, cell=[10, 10, 10]))
+        for options, argument in [({"exclude": 0, "periodic": True}, "exclude"), ({"exclude": 5}, "exclude"), ({"mask": "x >"}, "mask"), ({"mask": [True, False]}, "mask")]:
+            with self.assertRaises(bh.UsageError) as caught:
+                box.closest([0, 0, 0], [1, 0, 0], **options)
+            self.assertEqual(caught.exception.argument, argument)
+        self.assertEqual(int(box.closest([5, 0, 0], [1, 0, 0], periodic=True, mask=[0]).id), 0)
+
+
 class FarFromZero(unittest.TestCase):
     """Places on a map: answers are those of the same numbers minus the origin."""
 

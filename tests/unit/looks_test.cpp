@@ -88,6 +88,36 @@ TEST(Looks, FactorsMultiply) {
   EXPECT_THAT(xs(scene), ElementsAre(0, 1, 2, 3, 4)) << "centres are the same numbers";
 }
 
+TEST(Looks, ArraysHaveAValueForEachSphere) {
+  Scene scene = row();
+  const std::vector<Vec3d> colours{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0.5}, {0, 0, 0}};
+  apply(scene, {{"x > 1",
+                 {ScaleRadius{3}, SetRadii{{9, 8, 0.5, 0.25, 2}}, ScaleRadius{2}, SetOpacities{{0, 0, 0.25, 0.5, 1}},
+                  SetColours{colours, true}}}});
+  EXPECT_THAT(radii(scene), ElementsAre(1, 1, 1, 0.5, 4));
+  EXPECT_THAT(scene.spheres.attributes().opacity, ElementsAre(1, 1, 0.25F, 0.5F, 1));
+  EXPECT_EQ(scene.spheres.attributes().colour[3], (Vec3f{0.5F, 0.5F, 0.5F}));
+  EXPECT_EQ(scene.spheres.attributes().colour[2], (Vec3f{0, 0, 1}));
+
+  // Colours of the screen are those of texts.
+  Scene screen = row(), text = row();
+  apply(screen, {{"all", {SetColours{colours, false}}}});
+  apply(text, {{"x = 3", {SetColour{std::string("srgb(0.5,0.5,0.5)")}}}});
+  EXPECT_EQ(screen.spheres.attributes().colour[3], text.spheres.attributes().colour[3]);
+
+  for (const LookAction& wrong :
+       {LookAction(SetRadii{{1, 1}}), LookAction(SetRadii{{1, 1, 1, 1, -1}}), LookAction(SetOpacities{{1, 1, 1, 1}}),
+        LookAction(SetOpacities{{1, 1, 1, 1, 1.5}}), LookAction(SetColours{{{1, 1, 1}}, true}),
+        LookAction(SetColours{std::vector<Vec3d>(5, Vec3d{0, 2, 0}), false})}) {
+    Scene untouched = row();
+    std::size_t look = 9, action = 9;
+    EXPECT_FALSE(apply_looks(untouched, {{"all", {SetOpacity{0.5}, wrong}}}, &look, &action).ok());
+    EXPECT_EQ(look, 0u);
+    EXPECT_EQ(action, 1u);
+    EXPECT_TRUE(untouched.spheres.attributes().opacity.empty());
+  }
+}
+
 TEST(Looks, AColourLeavesTheOthersTheColourOfTheirMaterial) {
   Scene scene = row();
   scene.materials.front().colour = {0.5, 0.25, 0.125};

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field, fields
-from typing import Any, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 
 from ._checks import boolean, mapping
 from ._colours import Linear
-from ._errors import UsageError, bad_argument, shortened
+from ._errors import UsageError, bad_argument, found, shortened
 from ._options import ACTIONS, action_words, option
+from ._per_sphere import PerSphere, per_sphere
 from ._select import Selected, selected
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 __all__ = ["Orthographic", "Perspective", "Look", "Style"]
 
@@ -81,27 +85,36 @@ class Perspective:
         return _words(self, "perspective")
 
 
+# The actions that take arrays, and the words that stand where an array acts, until the array replaces it.
+_OF_ARRAYS = {"radius": "--radius-scale=1", "colour": "--colour=black", "opacity": "--opacity=1"}
+
+
 @dataclass(frozen=True)
 class Look:
     """Actions on the spheres of a selection: the options of the command line after ``--select``.
 
     select: an expression (docs/selections.md), or for spheres in memory a mask of shape (n,) or positions. show: False hides them. colour: a name, "#rrggbb", or three numbers as a
     screen shows them (linear light: linear()). colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
+    For spheres in memory arrays with a row for each of all n spheres, of which the selected ones take theirs: colour of shape
+    (n, 3) or n names, opacity (n,), and radius (n,) in world units.
     outline: pixels. crease: an attribute. legend_name: a text. clip: a text such as "plane:1,0,0,2.5", or several.
 
     >>> Look("element C", colour="orange", opacity=0.5).words()
     ['--select=element C', '--colour=orange', '--opacity=0.5']
     >>> Look([3, 4, 5, 9], show=False).words(count=10)
     ['--select=index 3..5 9', '--hide']
+    >>> Look("element C", opacity=[0.5, 1, 0.25])
+    Look(select='element C', show=None, colour=None, colour_by=None, opacity=[0.5 , 1.  , 0.25], material=None, radius_scale=None, radius=None, outline=None, crease=None, legend_name=None, clip=None)
     """
 
     select: Any = "all"
     show: Optional[bool] = None
-    colour: Union[str, Vector, Linear, None] = None
+    colour: Union[str, npt.ArrayLike, Linear, PerSphere, None] = None
     colour_by: Optional[str] = None
-    opacity: Optional[float] = None
+    opacity: Union[float, npt.ArrayLike, PerSphere, None] = None
     material: Optional[str] = None
     radius_scale: Optional[float] = None
+    radius: Union[npt.ArrayLike, PerSphere, None] = None
     outline: Optional[float] = None
     crease: Optional[str] = None
     legend_name: Optional[str] = None
@@ -114,17 +127,31 @@ class Look:
             needs = selected("select", self.select)
             object.__setattr__(self, "select", needs.text)
             object.__setattr__(self, "_needs", needs)
+        for name in _OF_ARRAYS:
+            values = per_sphere(name, getattr(self, name))
+            if values is not None:
+                object.__setattr__(self, name, values)
+        if self.radius is not None and not isinstance(self.radius, PerSphere):
+            raise bad_argument("radius", f"expected an array of shape (n,), found {found(self.radius)}", "radius_scale takes a factor")
 
     def words(self, count: Optional[int] = None) -> list[str]:
         """The options of the command line; `count`: the number of spheres, for masks and positions."""
         words = [option("select", self.select if self._needs is None else self._needs.of("select", count))]
         if self.show is not None:
             words.append("--show" if boolean("show", self.show) else "--hide")
-        for name in ACTIONS:
+        for name in ["radius", *ACTIONS]:
             value = getattr(self, name)
-            if value is not None:
+            if isinstance(value, PerSphere):
+                value.check(name, count)
+                words.append(_OF_ARRAYS[name])
+            elif value is not None:
                 words += action_words(name, value)
         return words
+
+    def arrays(self) -> list[tuple[str, PerSphere]]:
+        """The actions whose words stand for arrays."""
+        values = [(name, getattr(self, name)) for name in _OF_ARRAYS]
+        return [(name, value) for name, value in values if isinstance(value, PerSphere)]
 
 
 @dataclass(frozen=True)

@@ -64,14 +64,23 @@ def light_of_numbers(name: str, value: Any) -> Array:
     return _bihive.light_of_screen(_in_range(name, numbers(name, array)))
 
 
+def are_texts(array: Array) -> bool:
+    """Whether these are names of colours rather than numbers."""
+    return array.dtype.kind in "US" or (array.dtype.kind == "O" and array.ndim == 1 and array.size > 0)
+
+
+def numbers_of_screen(name: str, array: Array) -> Array:
+    """float64 from 0 to 1 as a screen shows them: of such floats, or of bytes (uint8)."""
+    return array / 255 if array.dtype == np.uint8 else _in_range(name, numbers(name, array))
+
+
 def colour_word(name: str, value: Any) -> str:
     """The numbers of one colour as the command line takes them: of what a screen shows under the picture's transfer
     curve, or of linear light."""
     if isinstance(value, Linear):
         colour = value.light
     else:
-        array = as_array(name, value)
-        colour = array / 255 if array.dtype == np.uint8 else _in_range(name, numbers(name, array))
+        colour = numbers_of_screen(name, as_array(name, value))
     if colour.shape != (3,):
         raise bad_argument(name, f"expected a name, '#rrggbb', or three numbers, found shape {colour.shape}")
     words = ",".join(repr(float(one)) for one in colour)
@@ -84,7 +93,7 @@ def light_of(name: str, value: Any, count: int) -> Array:
         return np.broadcast_to(light_of_text(value, name), (count, 3))
     if not isinstance(value, Linear):
         array = as_array(name, value)
-        if array.dtype.kind in "US" or (array.dtype.kind == "O" and array.ndim == 1 and array.size > 0):
+        if are_texts(array):
             values = texts(name, array, count)
             known = {one: light_of_text(one, name) for one in set(values)}
             return np.array([known[one] for one in values], dtype=np.float64).reshape(count, 3)

@@ -12,8 +12,8 @@ from ._camera import Look, Style
 from ._checks import path_of
 from ._errors import bad_argument, found
 from ._picture import Picture
-from ._progress import Bar
-from ._render import Camera, Progress, picture_of, picture_words
+from ._progress import Bar, Progress
+from ._render import Camera, looks_of, picture_of, picture_words
 from ._spheres import check_readable
 
 if TYPE_CHECKING:
@@ -125,6 +125,7 @@ def again(
     if isinstance(camera, Picture):
         raise bad_argument("camera", "expected Orthographic, Perspective or a side", "again() keeps the figure's camera")
     _bihive.check_environment()
-    words = picture_words(select, camera, style, looks, {"size": size, **options})
+    of_picture: dict[str, Any] = {"size": size, **options}
+    words = picture_words(select, camera, style, looks_of(looks, of_picture), of_picture)
     with Bar(progress, "rendering") as bar:
         return picture_of(_bihive.again(path, source, [*words, "--", "spheres"], bar))

@@ -14,8 +14,8 @@ from ._checks import boolean, path_of, several
 from ._errors import MissingError, UsageError, bad_argument, found, shortened, writing
 from ._options import option, words_of
 from ._picture import Picture
-from ._progress import Bar
-from ._render import Camera, Progress, draw, picture_words, style_text
+from ._progress import Bar, Progress
+from ._render import Camera, draw, looks_of, picture_words, style_text
 from ._spheres import Spheres, check_readable
 
 # Films alone need these, and they would take half of the time of an import of this package.
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     import subprocess
     from fractions import Fraction
+    from typing_extensions import Unpack
+
+    from ._option_types import FilmOptions
 
 __all__ = ["film"]
 
@@ -336,7 +339,7 @@ def film(
     select: Union[str, npt.ArrayLike, None] = None,
     looks: Union[Look, Sequence[Look], None] = None,
     progress: Progress = None,
-    **options: Any,
+    **options: Unpack[FilmOptions],
 ) -> int:
     """Makes a film, and returns the number of its pictures (0: not known, of a file).
 
@@ -352,43 +355,47 @@ def film(
     Other arguments as those of render().
     """
     out = path_of("path", path)
+    given_options: dict[str, Any] = dict(options)
     ending = os.path.splitext(out)[1].lower()
     if isinstance(source, (str, os.PathLike)):
         if isinstance(camera, Picture) or isinstance(style, (dict, Style)):
             raise bad_argument("camera" if isinstance(camera, Picture) else "style", "of a film of a file is a name")
-        of_film = {name: options.pop(name) for name in _OF_PROGRAM if name in options}
+        of_film = {name: given_options.pop(name) for name in _OF_PROGRAM if name in given_options}
         if frames is not None:
             of_film["frames"] = frames
-        flags = {name: options.pop(name) for name in _FLAGS_OF_PROGRAM if name in options}
+        flags = {name: given_options.pop(name) for name in _FLAGS_OF_PROGRAM if name in given_options}
         words = [option(name, value) for name, value in {"fps": fps, **of_film}.items() if value is not None]
         words += ["--" + name.replace("_", "-") for name, value in flags.items() if value is not None and boolean(name, value)]
-        words += picture_words(select, camera, style, looks, {"size": size, **options})
+        of_picture: dict[str, Any] = {"size": size, **given_options}
+        words += picture_words(select, camera, style, looks_of(looks, of_picture), of_picture)
         _film_of_file(check_readable(source, "source"), out, words, progress)
         return 0
     if ending not in _ENDINGS:
         raise bad_argument("path", f"expected .mp4, .mov, .mkv or .webm, found {found(out)}")
     if isinstance(frames, str):
         raise bad_argument("frames", "of frames in memory is a slice or positions", "frames=slice(0, 100, 10)")
-    if options.get("bits") is not None and words_of({"bits": options["bits"]}) != ["--bits=8"]:
+    if given_options.get("bits") is not None and words_of({"bits": given_options["bits"]}) != ["--bits=8"]:
         raise bad_argument("bits", "a film has 8 bits")
-    if isinstance(options.get("background"), str) and options["background"] == "none":
+    if isinstance(given_options.get("background"), str) and given_options["background"] == "none":
         raise bad_argument("background", "a film has no transparency")
     for name in [*_OF_PROGRAM, *_FLAGS_OF_PROGRAM]:
-        if options.get(name) is not None:
+        if given_options.get(name) is not None:
             raise bad_argument(name, "is for a film of a file", "give the file's path, or the frames in the order of the film")
     rate = _rate(fps)
     like = camera if isinstance(camera, Picture) else None
+    of_pictures: dict[str, Any] = {"size": size, **given_options}
+    given = looks_of(looks, of_pictures)
     encoder: Optional[_Ffmpeg] = None
     count = 0
     try:
         in_all = _count_of(source, frames)
         with Bar(progress, "filming") as bar:
             for spheres in _frames_of(source, atoms, frames):
-                words = picture_words(select, camera, style, looks, {"size": size, **options}, len(spheres))
+                words = picture_words(select, camera, style, given, of_pictures, len(spheres))
                 all_words = [*words, f"--frame={count}", "--", "spheres"]
                 # The first frame is drawn again, with the camera and the ranges that it determines for all.
-                like = like or draw(spheres, all_words, style_text(style), None, False)
-                picture = draw(spheres, all_words, style_text(style), like, False)
+                like = like or draw(spheres, all_words, given, style_text(style), None, False)
+                picture = draw(spheres, all_words, given, style_text(style), like, False)
                 if encoder is None:
                     encoder = _Ffmpeg(out, picture.size, rate)
                 encoder.add(picture)

@@ -6,9 +6,11 @@ import os
 from typing import TYPE_CHECKING, Literal, Mapping, Optional, Sequence, TypedDict, Union
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from ._colours import Linear
 
-__all__ = ["ReadOptions", "RenderOptions"]
+__all__ = ["FilmOptions", "ReadOptions", "RenderOptions"]
 
 Path = Union[str, "os.PathLike[str]"]
 Colour = Union[str, Sequence[float], "Linear"]
@@ -83,10 +85,10 @@ class RenderOptions(ReadOptions, total=False):
     max_prims: Optional[Union[int, Literal["unlimited"]]]  # Maximum spheres per leaf (the engine's choice; reference: 8)
     max_depth: Optional[Union[int, Literal["unlimited"]]]  # Maximum levels of the tree (the engine's choice; reference: unlimited)
     threads: Optional[int]  # Threads (0: as many as the machine runs at once)
-    colour: Optional[Colour]  # Colour them: a name, #rrggbb or r,g,b from 0 to 1
+    colour: Optional[Union[Colour, npt.ArrayLike]]  # Colour them: a name, #rrggbb or r,g,b from 0 to 1
     colour_by: Optional[str]  # Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed: viridis, magma, plasma, inferno, cividis, turbo, greys, coolwarm, RdBu, okabe-ito, colours such as blue-white-red, or a file of some
     nan_colour: Optional[Colour]  # Colour of unknown numbers in the attribute that gives colours (grey)
-    opacity: Optional[float]  # Their opacity, 0 (clear) to 1
+    opacity: Optional[Union[float, npt.ArrayLike]]  # Their opacity, 0 (clear) to 1
     material: Optional[Literal["matte", "plastic", "metal", "glass", "flat", "toon"]]  # Their material (the style's)
     outline: Optional[float]  # After a selection: width of their outlines, 1 to 16; 0: none. Before: of all (the style's)
     crease: Optional[str]  # Lines between those that touch and differ in it, such as chain
@@ -107,3 +109,22 @@ class RenderOptions(ReadOptions, total=False):
     title_values: Optional[Path]  # CSV: a row for each frame, from 0; the first line names the columns: {NAME}
     font: Optional[Path]  # Font of titles, legends and the rest: TrueType or OpenType (DejaVu Sans)
     no_labels: Optional[bool]  # None of the labels that the scene file or the style asks for
+
+
+class FilmOptions(RenderOptions, total=False):
+    """Options of film(); those here are for films of files; None: as if left out."""
+
+    pictures: Optional[int]  # Number of pictures of an input with one frame (ten seconds, or all keys)
+    hold_first: Optional[int]  # Show the first picture N more times (0)
+    hold_last: Optional[int]  # Show the last picture N more times (0)
+    reverse: Optional[bool]  # Show the pictures backwards
+    ping_pong: Optional[bool]  # Show the pictures forwards, then backwards, without the ends: the film loops
+    turntable: Optional[float]  # Rotation of the camera around the scene, over the whole film
+    turn_axis: Optional[Literal["x", "y", "z", "picture"]]  # Axis of --turntable: x, y or z of the world, or the picture's vertical (the world's up direction)
+    follow: Optional[str]  # The camera moves with these spheres, through the boundaries of a periodic cell too
+    align: Optional[str]  # Move and turn all spheres of each frame until these lie over those of the first frame
+    fit_frames: Optional[Literal["first", "all", "each"]]  # The frames whose spheres the camera brings into view: the first, all of them (reads the film twice), or each picture those of its own (first)
+    camera_keys: Optional[Path]  # Key frames of the camera: docs/films.md
+    colour_range: Optional[Literal["first", "film", "frame"]]  # Ranges of --colour-by without MIN,MAX: of the first frame, of the whole film (reads it twice), or of each frame (first)
+    codec: Optional[str]  # ffmpeg's options for the codec (H.264, webm: VP9): '-c:v libx265 -crf 20'
+    shard: Optional[str]  # Draw every N-th picture from number i on; another command joins all N

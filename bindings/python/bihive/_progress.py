@@ -20,10 +20,13 @@ def _somebody_looks() -> bool:
         return False
 
 
+Progress = Union[None, bool, Callable[[float], object]]
+
+
 class Bar:
     """Called with the finished share several times per second; shows a bar of tqdm once the work has taken a second."""
 
-    def __init__(self, progress: Union[None, bool, Callable[[float], object]], what: str) -> None:
+    def __init__(self, progress: Progress, what: str) -> None:
         if progress is not None and not isinstance(progress, bool) and not callable(progress):
             raise bad_argument("progress", f"expected None, True, False or a function, found {found(progress)}")
         self._call = progress if callable(progress) else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 
 from . import _bihive
 from ._adapt import spheres_of
@@ -12,8 +12,9 @@ from ._camera import Look, Orthographic, Perspective, Style
 from ._checks import several
 from ._errors import InputWarning, bad_argument, found
 from ._options import ACTIONS, option, words_of
+from ._per_sphere import per_sphere
 from ._picture import Picture
-from ._progress import Bar
+from ._progress import Bar, Progress
 from ._select import NOBODY, selected
 from ._spheres import Spheres, check_readable
 
@@ -26,11 +27,31 @@ if TYPE_CHECKING:
 __all__ = ["render"]
 
 Camera = Union[Orthographic, Perspective, Picture, str, None]
-Progress = Union[None, bool, Callable[[float], object]]
+
+
+def looks_of(looks: Any, options: dict[str, Any]) -> list[Look]:
+    """The looks as a list, after one for the arrays among the options, which are taken out."""
+    colour, opacity = (per_sphere(name, options.get(name)) for name in ("colour", "opacity"))
+    for name, values in (("colour", colour), ("opacity", opacity)):
+        if values is not None:
+            del options[name]
+    given = [] if looks is None else [looks] if isinstance(looks, Look) else several("looks", looks, "a Look or several")
+    for look in given:
+        if not isinstance(look, Look):
+            raise bad_argument("looks", f"expected Look(...), found {found(look)}")
+    return given if colour is None and opacity is None else [Look(colour=colour, opacity=opacity), *given]
+
+
+Arrays = list[tuple[int, str, Any, bool]]
+
+
+def arrays_of(looks: Sequence[Look]) -> Arrays:
+    """Number of the look, action, values, and whether colours are light."""
+    return [(i, name, array.values, array.are_light) for i, look in enumerate(looks) for name, array in look.arrays()]
 
 
 def picture_words(
-    select: Any, camera: Camera, style: Any, looks: Any, options: dict[str, Any], count: Optional[int] = None
+    select: Any, camera: Camera, style: Any, looks: Sequence[Look], options: dict[str, Any], count: Optional[int] = None
 ) -> list[str]:
     """The arguments of `bihive render` for these keywords, without the input. `count`: of spheres in memory."""
     if isinstance(camera, str):
@@ -46,10 +67,7 @@ def picture_words(
         words.append(option("style", style))
     elif style is not None and not isinstance(style, (Style, dict)):
         raise bad_argument("style", f"expected a name, a path, a Style or a dictionary, found {found(style)}")
-    given = [] if looks is None else [looks] if isinstance(looks, Look) else several("looks", looks, "a Look or several")
-    for look in given:
-        if not isinstance(look, Look):
-            raise bad_argument("looks", f"expected Look(...), found {found(look)}")
+    for look in looks:
         words += look.words(count)
     if select is not None:
         if not isinstance(select, str) and selected("select", select).text == NOBODY:
@@ -73,11 +91,18 @@ def picture_of(core: _bihive.Picture, level: int = 3) -> Picture:
 
 
 def draw(
-    spheres: Optional[Spheres], words: Sequence[Union[str, bytes]], text: str, like: Optional[Picture], progress: Progress
+    spheres: Optional[Spheres],
+    words: Sequence[Union[str, bytes]],
+    looks: Sequence[Look],
+    text: str,
+    like: Optional[Picture],
+    progress: Progress,
 ) -> Picture:
     """The picture, and its warnings."""
     with Bar(progress, "rendering") as bar:
-        core = _bihive.render(spheres._core if spheres is not None else None, words, text, None if like is None else like._core, bar)
+        core = _bihive.render(
+            None if spheres is None else spheres._core, words, arrays_of(looks), text, None if like is None else like._core, bar
+        )
     return picture_of(core, 4)
 
 
@@ -106,11 +131,12 @@ def render(
         or a function, which is called with the finished share, 0 to 1, and in the end with 1.
     options: every other option of `bihive render` under its name with underscores: samples=16, shadows=False,
         background="black", ao=True, outline=2, fog=0.3, light="studio", legend=True, view="normal", crop=(0, 0, 64, 64),
-        transfer="none", bits=16, threads=2, engine="reference", replicate=(2, 2, 2)... A tuple stands for numbers
+        transfer="none", bits=16, threads=2, engine="reference", replicate=(2, 2, 2)... For spheres in memory colour and
+        opacity may be arrays, as those of a Look. A tuple stands for numbers
         between commas.
 
     Returns a Picture: the same bits as ``bihive render``, on any number of threads. Other Python threads run meanwhile, and
-    Ctrl-C ends it within half a second (the building of a tree and the reading of a file are not ended).
+    Ctrl-C ends it, the reading of a file and the building of a tree included, usually within half a second.
 
     Raises UsageError and InputError (both ValueErrors), which name the argument; FileError (an OSError); MissingError, a
     RuntimeError, if the machine lacks something.
@@ -125,6 +151,8 @@ def render(
         path = check_readable(spheres, "spheres")
     else:
         made = spheres_of(spheres)
-    words = picture_words(select, camera, style, looks, {"size": size, **options}, None if made is None else len(made))
+    of_picture: dict[str, Any] = {"size": size, **options}
+    given = looks_of(looks, of_picture)
+    words = picture_words(select, camera, style, given, of_picture, None if made is None else len(made))
     all_words: list[Union[str, bytes]] = [*words, "--", os.fsencode(path) if path is not None else "spheres"]
-    return draw(made, all_words, style_text(style), camera if isinstance(camera, Picture) else None, progress)
+    return draw(made, all_words, given, style_text(style), camera if isinstance(camera, Picture) else None, progress)

@@ -16,6 +16,7 @@ from ._checks import boolean, mapping, one_of, path_of, several, text_of, whole_
 from ._colours import Linear, light_of
 from ._errors import FileError, InputError, InputWarning, UsageError, bad_argument, found, shortened, writing
 from ._options import words_of
+from ._progress import Bar, Progress
 from ._select import chosen
 
 if TYPE_CHECKING:
@@ -397,7 +398,6 @@ class Spheres:
         >>> s.with_columns({"charge": None}).columns
         ['kind']
         """
-        self._refuse_images()
         without = [name for name, values in mapping("columns", columns).items() if values is None]
         for name in without:
             if name not in self.columns:
@@ -413,7 +413,6 @@ class Spheres:
         >>> Spheres([[0.0, 0, 0]], radius=2, columns={"charge": [1]}).moved([[5, 0, 0]]).bounds.tolist()
         [[3.0, -2.0, -2.0], [7.0, 2.0, 2.0]]
         """
-        self._refuse_images()
         places = numbers("xyz", xyz)
         if places.shape != (len(self), 3):
             raise bad_argument("xyz", f"expected shape ({len(self)}, 3), found shape {places.shape}")
@@ -429,7 +428,6 @@ class Spheres:
         """s["charge"]: an attribute as an array. s[mask], s[ids], s[a:b]: these spheres alone, as a new set."""
         if isinstance(key, str):
             return self._attribute(key)
-        self._refuse_images()
         count = len(self)
         try:
             chosen = _positions(key, count)
@@ -469,12 +467,7 @@ class Spheres:
         known = ", ".join(self.columns)
         return f"<bihive.Spheres: {count} sphere{'' if count == 1 else 's'}{source}{', ' + known if known else ''}>"
 
-    def _refuse_images(self) -> None:
-        if self._core.has_images:
-            raise bad_argument("replicate", "replicated spheres cannot be copied by value", "give replicate to render")
-
     def __getstate__(self) -> dict[str, Any]:
-        self._refuse_images()
         core = self._core
         state: dict[str, Any] = {"format": core.format, "name": core.name, "xyz": self.xyz, "radius": self.radius}
         for name in ("element", "type", "colour", "opacity", "cell", "periodic", "columns", *_OF_FRAMES):
@@ -583,11 +576,14 @@ def check_readable(path: Union[str, os.PathLike[str]], name: str = "path") -> st
     return text
 
 
-def read(path: Union[str, os.PathLike[str]], **options: Unpack[ReadOptions]) -> Spheres:
+def read(path: Union[str, os.PathLike[str]], *, progress: Progress = None, **options: Unpack[ReadOptions]) -> Spheres:
     """The spheres of a file of any format that ``bihive render`` reads, or of a built-in name ("demo").
 
     options: frame (from 0; -1 is the last), radius, radius_scale, recenter, assembly, trajectory, wrap, unwrap, periodic,
-    cell_vectors, cell_origin, columns (a dict such as {"x": "px", "r": 5}: names or places of columns); of built-in scenarios count and seed.
+    cell_vectors, cell_origin, replicate (copies along the cell's vectors as (2, 2, 1): spheres of their own, copy after copy, in a
+    cell of them all), columns (a dict such as {"x": "px", "r": 5}: names or places of columns); of built-in scenarios count and seed.
+
+    progress: as of render(); the share is an estimate. Other Python threads run meanwhile, and Ctrl-C ends it.
 
     Raises FileError (an OSError) if the file cannot be opened, InputError (a ValueError) with file and line if its content
     cannot be used. Warnings of the reader are given as InputWarning.
@@ -596,7 +592,8 @@ def read(path: Union[str, os.PathLike[str]], **options: Unpack[ReadOptions]) -> 
     <bihive.Spheres: 1631 spheres from demo (PDB), element, occupancy, b_factor, resid, serial, record, chain, resname, name>
     """
     text = check_readable(path)
-    core = _bihive.read([*words_of(options, _READING), "--", os.fsencode(text)])
+    with Bar(progress, "reading") as bar:
+        core = _bihive.read([*words_of(options, _READING), "--", os.fsencode(text)], bar)
     _warn_of(core)
     return Spheres._of(core)
 

@@ -14,6 +14,7 @@ from ._checks import boolean, one_of
 from ._errors import Error, InputError, bad_argument, found
 from ._hits import ClosestHits, Hits, Near, Pairs, RayQuery
 from ._options import words_of
+from ._progress import Bar, Progress
 from ._select import chosen
 from ._spheres import Spheres
 
@@ -26,6 +27,8 @@ __all__ = ["Tree"]
 
 Array = np.ndarray[Any, Any]
 Shape = tuple[int, ...]
+# Origins, directions, t_min, t_max, leaves, inside.
+Rays = tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]]
 _ENDS = ("surface", "centre")  # of a distance
 _PLENTY = 2**28  # bytes: smaller answers fit into every machine
 
@@ -41,6 +44,7 @@ class Tree:
         the spheres alone, as in pictures, unless the query has periodic=True. False: no images.
     engine: "auto" (wide), "wide", "reference", "brute" or "wide-brute". max_prims, max_depth: limits of the tree.
     threads: of building and queries; 0: as many as the machine runs at once.
+    progress: of building, as of render(). Ctrl-C ends it.
 
     >>> import numpy as np
     >>> tree = Tree(Spheres(np.array([[0.0, 0, 0], [5, 0, 0]]), radius=1))
@@ -70,6 +74,7 @@ class Tree:
         max_prims: Union[int, str, None] = None,
         max_depth: Union[int, str, None] = None,
         threads: int = 0,
+        progress: Progress = None,
     ) -> None:
         _bihive.check_environment()
         self._spheres: Spheres = spheres_of(spheres)
@@ -79,17 +84,34 @@ class Tree:
             self._ids = np.flatnonzero(chosen("select", select, self._spheres._core, images))
         self._options = words_of({"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads})
         self._sees_images = images
-        self._core = self._built(self._spheres)
+        self._masked: Optional[tuple[bytes, Tree]] = None
+        self._core = self._built(self._spheres, progress)
 
-    def _built(self, spheres: Spheres) -> _bihive.Tree:
+    def _built(self, spheres: Spheres, progress: Progress) -> _bihive.Tree:
         part = None if self._ids is None else self._ids.tolist()
-        return _bihive.build_tree(spheres._core, part, self._sees_images, self._options)
+        with Bar(progress, "building") as bar:
+            return _bihive.build_tree(spheres._core, part, self._sees_images, self._options, bar)
 
-    def update(self, xyz: npt.ArrayLike, radius: Optional[npt.ArrayLike] = None) -> None:
-        """Moves the spheres, whose attributes stay, and builds the tree anew. Queries that run meanwhile keep the old one.
+    def _counting(self, mask: Any) -> Tree:
+        """The tree of the spheres of this one that count, which is kept for the next query with the same mask."""
+        counting = chosen("mask", mask, self._spheres._core, self._sees_images)
+        if self._ids is not None:
+            counting[np.setdiff1d(np.arange(len(counting)), self._ids)] = False
+        key, kept = np.packbits(counting).tobytes(), self._masked
+        if kept is None or kept[0] != key:
+            tree = object.__new__(Tree)
+            tree.__dict__.update(self.__dict__)
+            tree._ids, tree._masked = np.flatnonzero(counting), None
+            tree._core = tree._built(self._spheres, False)
+            self._masked = kept = key, tree
+        return kept[1]
+
+    def update(self, xyz: npt.ArrayLike, radius: Optional[npt.ArrayLike] = None, *, progress: Progress = None) -> None:
+        """Moves the spheres, whose attributes stay, and builds the tree anew. Queries that run meanwhile keep the old one, and so
+        does everybody if Ctrl-C ends the building.
 
         xyz: shape (n, 3), of all spheres; radius: one number, or shape (n,); left out: as before. With `select` the same
-        positions count as before.
+        positions count as before. progress: as of render().
 
         >>> tree = Tree(Spheres([[0.0, 0, 0]], radius=1))
         >>> tree.update([[4.0, 0, 0]])
@@ -97,7 +119,7 @@ class Tree:
         3.0
         """
         spheres = self._spheres.moved(xyz, radius)
-        self._core, self._spheres = self._built(spheres), spheres
+        self._core, self._spheres, self._masked = self._built(spheres, progress), spheres, None
 
     @property
     def spheres(self) -> Spheres:
@@ -133,6 +155,8 @@ class Tree:
         leaves: Optional[npt.ArrayLike] = None,
         inside: Optional[npt.ArrayLike] = None,
         periodic: bool = False,
+        mask: Union[str, npt.ArrayLike, None] = None,
+        exclude: Optional[npt.ArrayLike] = None,
         order: str = "any",
     ) -> ClosestHits:
         """The nearest hit of each ray: t, float64, inf for none; and the sphere's position, int64, -1 for none. Of (n, 3) rays
@@ -147,16 +171,27 @@ class Tree:
             inside=True (one, or one for each ray) at its far side alone. Of its images, the one whose surface is nearest to
             the origin.
         periodic: rays meet the images of the spheres too, as positions of their spheres.
+        mask: only these spheres count: an expression, a mask of shape (n,), or positions. The first query with a mask builds a
+            tree of them, which is kept until another mask comes, so that rays are as fast as those of Tree(..., select=mask).
+        exclude: a sphere that does not count, one or one for each ray; -1: none. Not of periodic rays. Rays that would hit it
+            are traced twice.
         order: "blocks" if each 64 neighbours are close to each other, as 8 x 8 pixels are: faster. The answers do not change.
 
         Other Python threads run meanwhile, and Ctrl-C ends it. Error: UsageError for a periodic ray that passes 16,384
         cells without a hit or a t_max.
         """
+        if mask is not None:
+            return self._counting(mask).closest(
+                origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, order=order
+            )
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images, in_blocks = self._images(periodic), _in_blocks(order)
+        own = self._own_of_rays(exclude, shape, images)
         core = self._core
         try:
             t, ids = core.closest(*rays, images, in_blocks)
+            if own is not None:
+                _pass_over(core, rays, own, t, ids)
         except InputError as error:
             raise _of_t_max(error) from None
         hits = ClosestHits(t.reshape(shape)[()], self._positions(ids).reshape(shape)[()])
@@ -173,9 +208,20 @@ class Tree:
         leaves: Optional[npt.ArrayLike] = None,
         inside: Optional[npt.ArrayLike] = None,
         periodic: bool = False,
+        mask: Union[str, npt.ArrayLike, None] = None,
+        exclude: Optional[npt.ArrayLike] = None,
         order: str = "any",
     ) -> Booleans:
         """Whether each ray hits anything: bool, with the shape of the rays. Arguments as those of closest(); faster than that."""
+        if mask is not None:
+            return self._counting(mask).occluded(
+                origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, order=order
+            )
+        if exclude is not None:
+            hits = self.closest(
+                origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, order=order
+            )
+            return np.asarray(hits.id >= 0)[()]
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images, in_blocks = self._images(periodic), _in_blocks(order)
         try:
@@ -195,20 +241,30 @@ class Tree:
         leaves: Optional[npt.ArrayLike] = None,
         inside: Optional[npt.ArrayLike] = None,
         periodic: bool = False,
+        mask: Union[str, npt.ArrayLike, None] = None,
+        exclude: Optional[npt.ArrayLike] = None,
         k: Optional[int] = None,
     ) -> Hits:
         """Every sphere that each ray meets, where it enters. Arguments as those of closest(); periodic rays need t_max.
 
         k: of each ray the first k hits alone. The answer also knows positions(), normals(), exits() and derivatives().
         """
-        rays, _ = self._rays(origins, directions, t_min, t_max, leaves, inside)
+        if mask is not None:
+            return self._counting(mask).all_hits(
+                origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, k=k
+            )
+        rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images = self._images(periodic)
+        own = self._own_of_rays(exclude, shape, images)
         most = None if k is None else _count_of(k)
         core = self._core
         try:
             ray, t, ids = core.all_hits(*rays, images)
         except InputError as error:
             raise _of_t_max(error) from None
+        if own is not None:
+            others = ids != own[ray]
+            ray, t, ids = ray[others], t[others], ids[others]
         begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
         if most is not None:
             first = np.arange(len(ray)) - begin[ray] < most
@@ -366,6 +422,13 @@ class Tree:
         given = whole_numbers("exclude", exclude, None, -1, max(len(self._spheres) - 1, 0))
         return self._in_part(in_a_row("exclude", given, shape).astype(np.int64))
 
+    def _own_of_rays(self, exclude: Any, shape: Shape, images: bool) -> Optional[Array]:
+        if exclude is not None and images:
+            raise bad_argument("exclude", "is not for periodic rays: a sphere has many images", "leaves names one on whose surface a ray starts")
+        own = self._own(exclude, shape)
+        # A sphere outside of the tree is hit by no ray, and neither is this number.
+        return None if own is None else np.where(own >= 0, own, -2)
+
     def _images(self, periodic: Any) -> bool:
         if boolean("periodic", periodic) and not self.periodic:
             raise bad_argument("periodic", "the tree has no images: its spheres have no periodic cell, or it was made without")
@@ -390,7 +453,7 @@ class Tree:
 
     def _rays(
         self, origins: Any, directions: Any, t_min: Any, t_max: Any, leaves: Any, inside: Any
-    ) -> tuple[tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]], Shape]:
+    ) -> tuple[Rays, Shape]:
         """The rays one after the other, and their shape."""
         origin = vectors("origins", origins)
         direction = vectors("directions", directions)
@@ -440,6 +503,19 @@ def _limits(limits: Any, shape: Shape) -> Array:
     if np.isnan(most).any():
         raise bad_argument("limits", "expected numbers, found NaN")
     return most
+
+
+def _pass_over(core: _bihive.Tree, rays: Rays, own: Array, t: Array, ids: Array) -> None:
+    """Replaces hits of the sphere that does not count by the next ones."""
+    again = np.flatnonzero(ids == own)
+    if again.size == 0:
+        return
+    t_min, t_max, leaves, inside = (None if one is None else np.ascontiguousarray(one[again]) for one in rays[2:])
+    ray, t_of_all, id_of_all = core.all_hits(rays[0][again], rays[1][again], t_min, t_max, leaves, inside, False)
+    others = id_of_all != own[again][ray]
+    hit, first = np.unique(ray[others], return_index=True)
+    t[again], ids[again] = np.inf, -1
+    t[again[hit]], ids[again[hit]] = t_of_all[others][first], id_of_all[others][first]
 
 
 def _without_own(distance: Array, ids: Array, own: Array) -> tuple[Array, Array]:

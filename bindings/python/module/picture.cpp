@@ -3,15 +3,18 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "arrays.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/exr.h"
@@ -30,6 +33,7 @@
 #include "bihive/render/finished_pixels.h"
 #include "bihive/render/layers.h"
 #include "bihive/render/memory.h"
+#include "bihive/scene/looks.h"
 #include "errors.h"
 #include "spheres.h"
 #include "waiting.h"
@@ -100,7 +104,7 @@ Rendered draw(const Drawing& drawing, RenderEngine engine, Work& work) {
   if (!is_gpu(engine)) return value_of(render(drawing.input.scene, tracer, drawing.settings, progress, &work.cancel));
   GpuPicture picture = render_on_gpu(drawing.input.scene, tracer.tree(), drawing.settings, [&](double done) {
     progress(done);
-    if (work.cancel.cancelled()) fail({"cancelled", "", 0, 0, ""});
+    if (work.cancel.cancelled()) fail(cancelled_error());
   });
   Rendered rendered;
   rendered.film = std::move(picture.film);
@@ -171,10 +175,53 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
   return picture;
 }
 
+// Values for each sphere, from an array of an action: the number of its --select, its option, and whether colours are
+// light. The words have a placeholder where the action belongs.
+using ArrayOfLook = std::tuple<std::size_t, std::string, Array<double>, bool>;
+
+std::vector<Vec3d> vectors_from(const Array<double>& rows) {
+  std::vector<Vec3d> vectors;
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) vectors.push_back({rows.at(i, 0), rows.at(i, 1), rows.at(i, 2)});
+  return vectors;
+}
+
+void take_array(LookOptions& options, const ArrayOfLook& array) {
+  const auto& [number, name, values, are_light] = array;
+
+  // Find the look, and its words.
+  std::size_t look = 0, word = 0;
+  for (std::size_t left = number + 1; left > 0; ++look)
+    if (options.of_look.at(look) == "select" && --left == 0) break;
+  const std::string select = option_of_setting("select") + " ";
+  for (std::size_t left = number + 1; left > 0; ++word)
+    if (options.words.at(word).starts_with(select) && --left == 0) break;
+
+  // The action takes the position of the first one of its kind.
+  const auto put = [&actions = options.looks[look].actions, &words = options.words, word](
+                       const auto& is_placeholder, const std::string& option, const char* said, LookAction action) {
+    *std::find_if(actions.begin(), actions.end(), is_placeholder) = std::move(action);
+    for (std::size_t at = word; at < words.size(); ++at)
+      if (words[at].starts_with(option + " ")) {
+        words[at] = said;
+        break;
+      }
+  };
+  if (name == "colour")
+    put([](const LookAction& one) { return std::holds_alternative<SetColour>(one); }, "--colour", "--colour (array)",
+        SetColours{vectors_from(values), are_light});
+  else if (name == "opacity")
+    put([](const LookAction& one) { return std::holds_alternative<SetOpacity>(one); }, "--opacity", "--opacity (array)",
+        SetOpacities{vector_from<double>(values)});
+  else
+    put([](const LookAction& one) { return std::holds_alternative<ScaleRadius>(one); }, "--radius-scale",
+        "radius (array)", SetRadii{vector_from<double>(values)});
+}
+
 std::shared_ptr<Picture> render_picture(const std::shared_ptr<Spheres>& spheres, const std::vector<std::string>& words,
-                                        const std::string& style_text, const Picture* like,
-                                        const py::object& progress) {
+                                        const std::vector<ArrayOfLook>& arrays, const std::string& style_text,
+                                        const Picture* like, const py::object& progress) {
   PictureRequest options = request_of(words);
+  for (const ArrayOfLook& array : arrays) take_array(options.looks, array);
   if (spheres == nullptr && like == nullptr) take_saved_request(options);
   std::shared_ptr<Picture> picture;
   wait_for([&](Work& work) { picture = make_picture(spheres, options, style_text, like, work); }, progress);

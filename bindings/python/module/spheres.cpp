@@ -11,7 +11,10 @@
 #include <utility>
 
 #include "arrays.h"
+#include "bihive/base/memory.h"
+#include "bihive/base/readable.h"
 #include "bihive/base/timer.h"
+#include "bihive/base/watch.h"
 #include "bihive/base/write_file.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/geometry/lattice.h"
@@ -216,16 +219,47 @@ SphereFile read_input_file(const InputOptions& options) {
   return without_scene(value_of(load_scene(bytes, options.input, reading)));
 }
 
-SharedSpheres read(const std::vector<std::string>& words) {
+// Copies along a cell as spheres of their own, in a cell of them all: what an array has a row for is a sphere.
+SphereFile with_copies(SphereFile file) {
+  const SphereSet& set = file.spheres;
+  if (!set.has_images()) return file;
+  constexpr double kBytesPerCopy = 4 * 8 + 16 + 2 * 8;  // numbers in binary64, the set, ids
+  const std::int64_t count = set.total_size();
+  value_of(check_memory(kBytesPerCopy * static_cast<double>(count), grouped(count) + " spheres with their copies"));
+  std::array<std::vector<double>, 4> columns;
+  std::vector<std::int64_t> stored;
+  for (std::vector<double>& column : columns) column.reserve(static_cast<std::size_t>(count));
+  stored.reserve(static_cast<std::size_t>(count));
+  for (std::int64_t id = 0; id < count; ++id) {
+    const Vec3d centre = set.centre(id);
+    for (std::size_t axis = 0; axis < 3; ++axis) columns[axis].push_back(centre[static_cast<int>(axis)]);
+    columns[3].push_back(set.radius(id));
+    stored.push_back(set.stored_id(id));
+  }
+  const auto view = [&](std::size_t column) { return NumbersView::of(columns[column]); };
+  SphereSet all = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
+  all.attributes() = set.attributes().part(stored);
+  if (set.cell()) {
+    Cell cell = *set.cell();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      cell.vectors[axis] = double(set.images().counts[axis]) * cell.vectors[axis];
+    all.cell() = cell;
+  }
+  file.spheres = std::move(all);
+  return file;
+}
+
+SharedSpheres read(const std::vector<std::string>& words, const py::object& progress) {
   InputOptions options = request_of(words).input;
   take_saved_input(options);
   auto made = std::make_shared<Spheres>();
   wait_for(
-      [&](Work&) {
-        made->file = read_input_file(options);
+      [&](Work& work) {
+        const Watch watch(work.between(0, 1), &work.cancel);
+        made->file = with_copies(read_input_file(options));
         made->name = options.input;
       },
-      py::none());
+      progress);
   return made;
 }
 
@@ -482,7 +516,6 @@ void bind_spheres(py::module_& module) {
             const SphereSet::Bounds box = s.file.spheres.bounds();
             return array_from<double>({box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}, {2, 3});
           })
-      .def_property_readonly("has_images", [](const Spheres& s) { return s.file.spheres.has_images(); })
       .def_property_readonly("nbytes", [](const Spheres& s) { return s.file.spheres.allocated_bytes(); })
       .def_property_readonly("name",
                              [](const Spheres& s) {

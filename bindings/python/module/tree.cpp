@@ -335,14 +335,14 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
 // `part`: ids of a subset of the spheres; their positions in it are the answers' ids. `words`: options of `bihive
 // trace` about tree, engine and threads. `periodic`: queries see the images along the set's cell.
 std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
-                                    bool periodic, const std::vector<std::string>& words) {
+                                    bool periodic, const std::vector<std::string>& words, const py::object& progress) {
   const PictureRequest options = request_of(words);
   if (is_gpu(options.engine)) fail_setting("engine", ": a graphics processor answers no rays", "leave it out");
   const Engine engine = structure_of(options.engine);
   auto tree = std::make_shared<RayTree>();
   tree->threads = static_cast<int>(options.threads);
   wait_for(
-      [&](Work&) {
+      [&](Work& work) {
         tree->spheres = spheres;
         if (part) {
           auto some = std::make_shared<Spheres>();
@@ -351,10 +351,11 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
         }
         const SphereSet& set = tree->spheres->file.spheres;
         value_of(check_tree_memory(set, engine, options.tree));
+        const Watch watch(work.between(0, 1), &work.cancel);
         tree->tracer = value_of(Tracer::build(set, engine, options.tree, tree->threads));
         if (periodic && !set.has_images()) tree->images = value_of(PeriodicImages::of(set, tree->threads));
       },
-      py::none());
+      progress);
   return tree;
 }
 
@@ -377,10 +378,10 @@ void bind_trees(py::module_& module) {
       .def("all_hits", every_hit)
       .def("surfaces", surfaces);
   bind_points(tree_class);
-  module.def(
-      "build_tree",
-      [](const std::shared_ptr<Spheres>& spheres, const std::optional<std::vector<std::int64_t>>& part, bool periodic,
-         const std::vector<std::string>& words) { return build_tree(spheres, part, periodic, words); });
+  module.def("build_tree",
+             [](const std::shared_ptr<Spheres>& spheres, const std::optional<std::vector<std::int64_t>>& part,
+                bool periodic, const std::vector<std::string>& words,
+                const py::object& progress) { return build_tree(spheres, part, periodic, words, progress); });
 }
 
 }  // namespace bihive::python

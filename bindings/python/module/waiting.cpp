@@ -1,14 +1,9 @@
 #include "waiting.h"
 
-#include <condition_variable>
-#include <mutex>
-
 namespace py = pybind11;
 
 namespace bihive::python {
 namespace {
-
-constexpr std::chrono::milliseconds kLook(50);
 
 // The exception that a signal's handler or the progress function throws; null: none. Takes Python's lock.
 std::exception_ptr look(const py::object* progress, double done) {
@@ -25,33 +20,17 @@ std::exception_ptr look(const py::object* progress, double done) {
 }  // namespace
 
 void wait_for(const std::function<void(Work&)>& work, const py::object& progress) {
-  Work shared;
-  std::mutex mutex;
-  std::condition_variable changed;
-  bool finished = false;
-  std::exception_ptr of_work, of_caller;
+  std::exception_ptr of_caller, of_work;
   {
     const py::gil_scoped_release unlocked;
-    std::thread worker([&] {
-      try {
-        work(shared);
-      } catch (...) {
-        of_work = std::current_exception();
-      }
-      const std::lock_guard<std::mutex> guard(mutex);
-      finished = true;
-      changed.notify_one();
-    });
-    while (true) {
-      {
-        std::unique_lock<std::mutex> guard(mutex);
-        if (changed.wait_for(guard, kLook, [&] { return finished; })) break;
-      }
-      if (of_caller) continue;
-      of_caller = look(&progress, shared.done.load(std::memory_order_relaxed));
-      if (of_caller) shared.cancel.cancel();
+    try {
+      wait_for_work(work, [&](double done) {
+        of_caller = look(&progress, done);
+        return of_caller == nullptr;
+      });
+    } catch (...) {
+      of_work = std::current_exception();
     }
-    worker.join();
   }
   if (of_caller) std::rethrow_exception(of_caller);
   if (of_work) std::rethrow_exception(of_work);
@@ -62,7 +41,7 @@ void wait_for(const std::function<void(Work&)>& work, const py::object& progress
 bool SignalWatch::cancelled() {
   if (std::this_thread::get_id() != caller_ || thrown_) return cancel_.cancelled();
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_look_ < kLook) return cancel_.cancelled();
+  if (now - last_look_ < kBetweenLooks) return cancel_.cancelled();
   last_look_ = now;
   thrown_ = look(nullptr, 0);
   if (thrown_) cancel_.cancel();

@@ -3,21 +3,15 @@
 
 #include <pybind11/pybind11.h>
 
-#include <atomic>
 #include <chrono>
 #include <exception>
 #include <functional>
 #include <thread>
 
 #include "bihive/base/cancel.h"
+#include "bihive/job/waiting.h"
 
 namespace bihive::python {
-
-/// Shared by the work and the thread that waits for it.
-struct Work {
-  CancelToken cancel;           ///< set: stop soon; the result is no longer needed
-  std::atomic<double> done{0};  ///< the finished share, 0 to 1
-};
 
 /// Does the work on a thread of its own. The calling thread waits, and several times per second it checks for signals
 /// and calls `progress` (None, or a function of the finished share), in the end with 1. An exception of either cancels

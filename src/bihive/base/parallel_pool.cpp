@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bihive/base/parallel.h"
+#include "bihive/base/watch.h"
 
 namespace bihive {
 
@@ -91,6 +92,7 @@ int hardware_threads() {
 }
 
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body) {
+  const Unwatched unwatched;
   if (threads == 0) threads = hardware_threads();
   if (!kHasThreads || is_inside_a_call || threads == 1 || count <= 1) {
     for (std::int64_t i = 0; i < count; ++i) body(i);
@@ -105,6 +107,7 @@ void parallel_for(int threads, std::int64_t count, const std::function<void(std:
 }
 
 void parallel_tasks(int threads, const std::function<void(TaskList&)>& first) {
+  const Unwatched unwatched;
   if (threads == 0) threads = hardware_threads();
   if (!kHasThreads || is_inside_a_call || threads == 1) {
     Inline list;

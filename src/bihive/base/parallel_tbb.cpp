@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bihive/base/parallel.h"
+#include "bihive/base/watch.h"
 
 namespace bihive {
 namespace {
@@ -132,6 +133,7 @@ int hardware_threads() {
 }
 
 void parallel_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body) {
+  const Unwatched unwatched;
   threads = threads_to_use(threads == 0 ? hardware_threads() : threads);
   // One thread runs a plain loop, so it needs no scheduler.
   if (threads == 1 || count <= 1) {
@@ -143,6 +145,7 @@ void parallel_for(int threads, std::int64_t count, const std::function<void(std:
 }
 
 void parallel_tasks(int threads, const std::function<void(TaskList&)>& first) {
+  const Unwatched unwatched;
   threads = threads_to_use(threads == 0 ? hardware_threads() : threads);
   if (threads == 1) {
     Inline list;

@@ -10,6 +10,7 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/base/output_place.h"
+#include "bihive/base/watch.h"
 #include "bihive/base/write_file.h"
 
 namespace bihive {
@@ -67,7 +68,9 @@ Result<std::string> read_open_file(int file, const std::string& name, bool* grew
   std::string bytes;
   if (has_size) bytes.reserve(static_cast<std::size_t>(most));
   std::string piece(kPiece, '\0');
+  const WatchedWork work;
   while (true) {
+    if (work.cancelled()) return cancelled_error();
     const std::uint64_t left = most - bytes.size();
     const ssize_t count =
         read_some(file, piece.data(), static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, left)));

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/watch.h"
 #include "bihive/math/infinity.h"
 
 namespace bihive {
@@ -66,6 +67,7 @@ class Builder {
     while (!jobs_.empty()) {
       const Job job = jobs_.back();
       jobs_.pop_back();
+      stop_if_cancelled(static_cast<double>(in_leaves_) / static_cast<double>(std::max<std::int64_t>(count, 1)));
       build_subtree(job);
     }
     tree_.nodes.shrink_to_fit();
@@ -163,6 +165,7 @@ class Builder {
     node.kind = NodeKind::leaf;
     node.first = job.first;
     node.sphere_count = job.last - job.first;
+    in_leaves_ += node.sphere_count;
     if (forced) ++tree_.forced_leaves;
   }
 
@@ -220,6 +223,7 @@ class Builder {
   Tree tree_;
   std::vector<Job> jobs_;
   std::int64_t spheres_read_ = 0;
+  std::int64_t in_leaves_ = 0;  // spheres
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ Result<SphereFile> read_spheres_from_memory(std::string_view bytes, const std::s
 
 Result<std::string> unpack_if_packed(std::string bytes, const std::string& name) {
   if (!is_packed(bytes)) return bytes;
-  return unpack_bytes(bytes, name);
+  return without_throwing(name, [&] { return unpack_bytes(bytes, name); });
 }
 
 Result<SphereFile> read_spheres(const std::string& path, const ReadOptions& options) {

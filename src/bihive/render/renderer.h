@@ -6,6 +6,7 @@
 
 #include "bihive/base/cancel.h"
 #include "bihive/base/result.h"
+#include "bihive/base/watch.h"
 #include "bihive/image/film.h"
 #include "bihive/image/image.h"
 #include "bihive/image/image_from_film.h"
@@ -22,12 +23,10 @@ struct Rendered {
   double render_ms = 0;
 };
 
-/// Called now and then, from one thread at a time, with the finished share of the picture, 0 to 1.
-using ProgressCallback = std::function<void(double done)>;
-
 /// A stereo picture is that of render_stereo() (render/stereo.h). Settings must be in range (a programmer's error
 /// otherwise). The traversal and tree views need a tracer of the reference engine: an Error without one. The Error is
-/// "cancelled" if the token was set before the picture was complete. The new film takes the memory of `film`, whose
+/// cancelled_error() if the token was set before the picture was complete. Without `progress` and `cancel` the thread's
+/// Watch is told and asked (base/watch.h). The new film takes the memory of `film`, whose
 /// contents are lost; so all frames can share one film. Each thread that took part keeps its buffers for the next
 /// picture, usually a few MB (render/shade/wave/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,

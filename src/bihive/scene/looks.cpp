@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bihive/geometry/cut_sphere.h"
+#include "bihive/image/transfer.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/creases.h"
 #include "bihive/select/selection.h"
@@ -44,6 +45,25 @@ class LookedAt {
     return Done{};
   }
 
+  Status operator()(const SetColours& action) {
+    if (Status status = check_count(action.colours.size(), "colours"); !status) return status;
+    const bool through_curve = !action.are_light && scene_.picture.transfer == Transfer::srgb;
+    take_colours();
+    for (std::size_t i = 0; i < mask_.size(); ++i) {
+      if (mask_[i] == 0) continue;
+      Vec3d colour = action.colours[i];
+      for (int channel = 0; channel < 3; ++channel) {
+        if (!(colour[channel] >= 0 && colour[channel] <= 1))
+          return look_error("numbers of colours lie between 0 and 1");
+        if (through_curve) colour[channel] = linear_from_srgb(colour[channel]);
+      }
+      colours_[i] = to_float(colour);
+    }
+    set_meaning(-1);
+    colours_by_attribute_ = false;
+    return Done{};
+  }
+
   Status operator()(const ColourBy& action) {
     take_colours();
     const Result<ColourBy> done =
@@ -62,6 +82,18 @@ class LookedAt {
     return Done{};
   }
 
+  Status operator()(const SetOpacities& action) {
+    if (Status status = check_count(action.opacities.size(), "opacities"); !status) return status;
+    if (opacities_.empty()) opacities_ = scene_.spheres.attributes().opacity;
+    if (opacities_.empty()) opacities_.assign(mask_.size(), 1.0F);
+    for (std::size_t i = 0; i < mask_.size(); ++i) {
+      if (mask_[i] == 0) continue;
+      if (!(action.opacities[i] >= 0 && action.opacities[i] <= 1)) return look_error("an opacity lies between 0 and 1");
+      opacities_[i] = static_cast<float>(action.opacities[i]);
+    }
+    return Done{};
+  }
+
   Status operator()(const SetMaterial& action) {
     take_colours();
     if (materials_.empty()) material_of_ = scene_.material_of_sphere;
@@ -76,6 +108,21 @@ class LookedAt {
     if (factors_.empty()) factors_.assign(mask_.size(), 1.0);
     for (std::size_t i = 0; i < mask_.size(); ++i)
       if (mask_[i] != 0) factors_[i] *= action.factor;
+    return Done{};
+  }
+
+  Status operator()(const SetRadii& action) {
+    if (Status status = check_count(action.radii.size(), "radii"); !status) return status;
+    if (factors_.empty()) factors_.assign(mask_.size(), 1.0);
+    if (radii_.empty())
+      for (std::int64_t id = 0; id < scene_.spheres.size(); ++id) radii_.push_back(scene_.spheres.radius(id));
+    for (std::size_t i = 0; i < mask_.size(); ++i) {
+      if (mask_[i] == 0) continue;
+      if (!(action.radii[i] >= 0) || !std::isfinite(action.radii[i]))
+        return look_error("a radius is finite and at least 0");
+      radii_[i] = action.radii[i];
+      factors_[i] = 1;
+    }
     return Done{};
   }
 
@@ -180,6 +227,12 @@ class LookedAt {
   }
 
  private:
+  Status check_count(std::size_t count, const std::string& what) const {
+    if (count == mask_.size()) return Done{};
+    return look_error("there are " + std::to_string(count) + " " + what + " for " + std::to_string(mask_.size()) +
+                      " spheres");
+  }
+
   template <class T>
   void set(std::vector<T>& values, T before, T wanted) {
     if (values.empty()) values.assign(mask_.size(), before);
@@ -230,7 +283,7 @@ class LookedAt {
       x.push_back(centre.x);
       y.push_back(centre.y);
       z.push_back(centre.z);
-      r.push_back(spheres.radius(id) * (factors_.empty() ? 1.0 : factors_[i]));
+      r.push_back((radii_.empty() ? spheres.radius(id) : radii_[i]) * (factors_.empty() ? 1.0 : factors_[i]));
     }
     Result<SphereSet> made = SphereSet::from_local(x, y, z, r, spheres.origin());
     if (made)
@@ -256,7 +309,7 @@ class LookedAt {
   std::vector<std::int32_t> meaning_of_;
   std::vector<std::string> legend_names_;  // with those of the scene
   bool colours_by_attribute_ = false;      // the present look does
-  std::vector<double> factors_;
+  std::vector<double> factors_, radii_;
   std::vector<Clip> clips_;  // with those of the scene
   std::vector<std::uint64_t> clips_of_;
 };

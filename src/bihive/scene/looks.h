@@ -46,9 +46,22 @@ struct SetLegendName {
 struct AddClip {
   Clip clip;
 };
+/// Values for each sphere of the scene, for programs that have arrays of them. Those of spheres that are not selected
+/// are not used. An Error if their number is another one.
+struct SetColours {
+  std::vector<Vec3d> colours;
+  bool are_light;  ///< linear; false: as the screen shows them, as "srgb(r,g,b)"
+};
+struct SetOpacities {
+  std::vector<double> opacities;  ///< 0 (clear) to 1
+};
+/// Factors of earlier actions no longer count, those of later ones do.
+struct SetRadii {
+  std::vector<double> radii;  ///< >= 0, world units
+};
 /// One action on spheres. To add a kind: a struct here, and its case in looks.cpp.
 using LookAction = std::variant<SetShown, SetColour, ColourBy, SetOpacity, SetMaterial, ScaleRadius, SetOutline,
-                                SetCrease, SetLegendName, AddClip>;
+                                SetCrease, SetLegendName, AddClip, SetColours, SetOpacities, SetRadii>;
 
 /// Actions on the spheres of one selection, done in their order.
 struct Look {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bihive/base/parallel.h"
+#include "bihive/base/watch.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/scene/camera.h"
@@ -105,7 +106,7 @@ Result<FigureWork> counted_figure(const FrameRatePlan& plan, int stride, const C
       for (const std::int64_t max_prims : plan.max_prims)
         work[{scenario, spheres}][std::min(max_prims, spheres)] = counted_work(
             *scene, build_reference_tree(scene->spheres, {max_prims, kUnlimited}), plan, stride, cancel, counting);
-      if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
+      if (cancel != nullptr && cancel->cancelled()) return cancelled_error();
     }
   return work;
 }

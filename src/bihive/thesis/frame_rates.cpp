@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bihive/base/timer.h"
+#include "bihive/base/watch.h"
 #include "bihive/render/renderer.h"
 #include "bihive/scene/generators.h"
 
@@ -173,7 +174,7 @@ Status FrameRateRun::draw_frame(const RenderSettings& settings, const CancelToke
   }
   if (Status status = gl_->begin(scene_->camera, settings); !status) return status;
   while (!gl_->finished()) {
-    if (cancel != nullptr && cancel->cancelled()) return Error{"cancelled", "", 0, 0, ""};
+    if (cancel != nullptr && cancel->cancelled()) return cancelled_error();
     if (Status status = gl_->advance(cancel != nullptr ? kSliceMs : kWholeFrameMs); !status) return status;
   }
   return Done{};

@@ -10,6 +10,7 @@
 #include "bihive/base/memory.h"
 #include "bihive/base/readable.h"
 #include "bihive/base/setting_name.h"
+#include "bihive/base/watch.h"
 #include "bihive/geometry/lattice.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/assemble/unknown_radii.h"
@@ -195,12 +196,15 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   const auto count = static_cast<std::int64_t>(steps.raw().size());
   const bool is_empty = count == 0 && may_be_empty;
   if (Status status = is_empty ? Status(Done{}) : steps.begin(0, count); !status) return status.error();
+  stop_if_cancelled();
   if (!steps.has_radii()) {
     const std::int64_t unknown = count_unknown_radii(steps.raw());
     const bool guesses = unknown > 0 && !steps.raw().unknown_radius;
     steps.fill_radii({unknown, count, guesses ? radius_from_neighbours(steps.raw(), steps.cell()) : std::nullopt});
   }
+  stop_if_cancelled();
   if (Status status = steps.apply_options(); !status) return status.error();
+  stop_if_cancelled();
   if (options.recenter && !is_empty) steps.recenter(steps.centre_ends());
   const Result<WorldEnds> ends = steps.ends();
   if (!ends) return ends.error();
@@ -210,6 +214,7 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
     const Vec3d first = origin_of_first_frame ? origin_of_first_frame() : Vec3d{};
     if (first != Vec3d{} && ends->extent(first) <= kMostOfOwnExtent * ends->extent(origin)) origin = first;
   }
+  stop_if_cancelled();
   const Result<RoundingLoss> loss = steps.round(*ends, origin);
   if (!loss) return loss.error();
   return steps.finish(*loss);

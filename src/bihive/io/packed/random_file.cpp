@@ -4,15 +4,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <new>
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/watch.h"
 
 namespace bihive {
 namespace {
+
+// Between two looks at whether the reading is cancelled.
+constexpr std::size_t kMostAtOnce = std::size_t{1} << 24;
 
 FileStamp stamp_of(const struct stat& facts) {
   return {facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_ctim.tv_sec, facts.st_ctim.tv_nsec,
@@ -120,7 +125,8 @@ Status RandomFile::read_into(std::int64_t place, std::int64_t count, char* to) c
     return Done{};
   }
   for (std::size_t have = 0; have < wanted;) {
-    const ssize_t n = pread(file_, to + have, wanted - have, place + static_cast<off_t>(have));
+    stop_if_cancelled();
+    const ssize_t n = pread(file_, to + have, std::min(wanted - have, kMostAtOnce), place + static_cast<off_t>(have));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return unreadable(path_, errno);
     if (n == 0) return ends_early();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/watch.h"
 #include "bihive/io/packed.h"
 #include "bihive/io/packed/binary_cif.h"
 #include "bihive/io/packed/unpackers.h"
@@ -191,7 +192,10 @@ bool is_packed(std::string_view bytes) {
 
 Status unpack_pieces(Packing packing, const PieceSource& source, const std::string& name, const PieceSink& sink) {
   BinaryCifFilter filter(name, sink);
-  const PieceSink filtered = [&filter](std::string_view piece) { return filter.take(piece); };
+  const PieceSink filtered = [&filter](std::string_view piece) {
+    stop_if_cancelled();
+    return filter.take(piece);
+  };
   if (packing == Packing::binary_cif) {
     for (bool more = true; more;) {
       const Result<std::string_view> piece = source();

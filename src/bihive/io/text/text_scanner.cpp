@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bihive/base/readable.h"
+#include "bihive/base/watch.h"
 #include "bihive/io/packed/random_file.h"
 
 namespace bihive {
@@ -15,16 +16,26 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 // Bytes of a file that are read at once. From 64 kB to 4 MB it makes no difference that can be measured.
 constexpr std::int64_t kWindowBytes = std::int64_t{1} << 18;
 
+// Whoever watches hears of every line whose number is a multiple of this power of two.
+constexpr std::int64_t kWatchedLines = 4096;
+// The share of reading that is over at the end of the text: sets are made of the numbers then.
+constexpr double kShareOfText = 0.8;
+
 }  // namespace
 
 TextScanner::TextScanner(std::string_view text, std::string file)
-    : text_(text), text_end_(static_cast<std::int64_t>(text.size())), file_(std::move(file)) {
+    : text_(text), text_end_(static_cast<std::int64_t>(text.size())), end_(text_end_), file_(std::move(file)) {
   if (text_.substr(0, 3) == kByteOrderMark) text_.remove_prefix(3);
   ends_in_newline_ = text_.empty() || text_.back() == '\n';
 }
 
 TextScanner::TextScanner(FileText& part)
-    : part_(&part), text_end_(part.begin), file_(part.file.path()), line_number_(part.lines_before) {
+    : part_(&part),
+      text_end_(part.begin),
+      begin_(part.begin),
+      end_(part.end),
+      file_(part.file.path()),
+      line_number_(part.lines_before) {
   take_more(kWindowBytes);
   if (part.begin == 0 && text_.substr(0, 3) == kByteOrderMark) text_.remove_prefix(3);
   if (text_.empty()) return;
@@ -91,11 +102,16 @@ bool TextScanner::next_line() {
   const std::size_t length = found ? static_cast<std::size_t>(static_cast<const char*>(found) - begin) : left;
   next_ += found ? length + 1 : length;
   ++line_number_;
+  if (line_number_ % kWatchedLines == 0) tell_watcher();
 
   whole_line_ = std::string_view(begin, length);
   if (!whole_line_.empty() && whole_line_.back() == '\r') whole_line_.remove_suffix(1);
   restart_line();
   return true;
+}
+
+void TextScanner::tell_watcher() const {
+  stop_if_cancelled(kShareOfText * static_cast<double>(place() - begin_) / static_cast<double>(end_ - begin_));
 }
 
 std::string_view TextScanner::peek_lines(std::int64_t bytes) {
@@ -118,6 +134,7 @@ std::string_view TextScanner::peek_lines(std::int64_t bytes) {
 void TextScanner::skip_peeked(std::int64_t bytes, std::int64_t lines) {
   next_ += static_cast<std::size_t>(bytes);
   line_number_ += lines;
+  tell_watcher();
   whole_line_ = {};
   restart_line();
 }
@@ -125,7 +142,7 @@ void TextScanner::skip_peeked(std::int64_t bytes, std::int64_t lines) {
 TextScanner TextScanner::part(std::string_view lines, std::int64_t lines_before) const {
   TextScanner scanner("", file_);
   scanner.text_ = lines;
-  scanner.text_end_ = static_cast<std::int64_t>(lines.size());
+  scanner.end_ = scanner.text_end_ = static_cast<std::int64_t>(lines.size());
   scanner.ends_in_newline_ = lines.empty() || lines.back() == '\n';
   scanner.separator_ = separator_;
   scanner.comment_ = comment_;

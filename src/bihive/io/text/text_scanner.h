@@ -84,6 +84,7 @@ class TextScanner {
 
  private:
   bool next_quoted_field(std::string_view& field);
+  void tell_watcher() const;
   bool more_in_file() const;
   void take_more(std::int64_t bytes);
 
@@ -91,6 +92,7 @@ class TextScanner {
   FileText* part_ = nullptr;
   std::shared_ptr<std::string> window_;  // of the part
   std::int64_t text_end_ = 0;            // byte of the file behind text_
+  std::int64_t begin_ = 0, end_ = 0;     // bytes of the file that are scanned
   bool ends_in_newline_ = true;
   std::string file_;
   char separator_ = kBlanks;

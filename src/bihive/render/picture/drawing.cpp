@@ -190,7 +190,7 @@ void Drawing::run_all() {
 
 Result<Rendered> Drawing::take() {
   if (failure_) return *failure_;
-  if (cancelled()) return Error{"cancelled", "", 0, 0, ""};
+  if (cancelled()) return cancelled_error();
   Rendered rendered;
   const Tile& part = *settings_.crop;
   const bool is_whole = drawn_.width() == part.width() && drawn_.height() == part.height();

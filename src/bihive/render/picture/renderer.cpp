@@ -16,6 +16,23 @@ namespace {
 // Takes a finished part, and may keep its film.
 using Sink = std::function<Status(Film& film, const Tile& pixels)>;
 
+// The caller's own callback and token; without both, those of the thread's Watch.
+class Observers {
+ public:
+  Observers(const ProgressCallback& progress, const CancelToken* cancel) : progress_(progress), cancel_(cancel) {
+    if (!work_.is_watched() || progress || cancel != nullptr) return;
+    progress_ = [this](double done) { work_.report(done); };
+    cancel_ = work_.cancel();
+  }
+  const ProgressCallback& progress() const { return progress_; }
+  const CancelToken* cancel() const { return cancel_; }
+
+ private:
+  WatchedWork work_;
+  ProgressCallback progress_;
+  const CancelToken* cancel_;
+};
+
 // The one way to draw at once: part after part, each of which goes to the sink.
 Result<RenderedBands> draw(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                            const NextPart& next, const Sink& sink, const ProgressCallback& progress,
@@ -43,7 +60,9 @@ Result<RenderedBands> draw(const Scene& scene, const Tracer& tracer, const Rende
 
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress, const CancelToken* cancel, Film film) {
-  if (settings.stereo.form != StereoForm::none) return render_stereo(scene, tracer, settings, progress, cancel);
+  const Observers observers(progress, cancel);
+  if (settings.stereo.form != StereoForm::none)
+    return render_stereo(scene, tracer, settings, observers.progress(), observers.cancel());
   Rendered whole;
   std::optional<Tile> rest = drawn_pixels(settings);
   const auto next = [&] { return std::exchange(rest, std::nullopt); };
@@ -51,7 +70,8 @@ Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSe
     whole.film = std::move(drawn);
     return Done{};
   };
-  const Result<RenderedBands> rendered = draw(scene, tracer, settings, next, keep, progress, cancel, std::move(film));
+  const Result<RenderedBands> rendered =
+      draw(scene, tracer, settings, next, keep, observers.progress(), observers.cancel(), std::move(film));
   if (!rendered) return rendered.error();
   whole.rays = rendered->rays;
   whole.render_ms = rendered->render_ms;
@@ -66,16 +86,18 @@ Result<RenderedBands> render_parts(const Scene& scene, const Tracer& tracer, con
                                    const NextPart& next, const BandCallback& take, const ProgressCallback& progress,
                                    const CancelToken* cancel) {
   BIHIVE_CHECK(!is_drawn_whole(settings));
-  return draw(scene, tracer, settings, next, take, progress, cancel);
+  const Observers observers(progress, cancel);
+  return draw(scene, tracer, settings, next, take, observers.progress(), observers.cancel());
 }
 
 Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                                       int band_rows, const BandCallback& take, const ProgressCallback& progress,
                                       const CancelToken* cancel) {
   BIHIVE_CHECK(band_rows >= 1);
+  const Observers observers(progress, cancel);
   const Tile all = drawn_pixels(settings);
   if (settings.stereo.form != StereoForm::none) {
-    const Result<Rendered> whole = render_stereo(scene, tracer, settings, progress, cancel);
+    const Result<Rendered> whole = render_stereo(scene, tracer, settings, observers.progress(), observers.cancel());
     if (!whole) return whole.error();
     if (Status status = take(whole->film, all); !status) return status.error();
     return RenderedBands{whole->rays, whole->render_ms};
@@ -86,7 +108,7 @@ Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, 
   double above = 0;
   double in_band = 0;
   ProgressCallback of_picture;
-  if (progress) of_picture = [&](double done) { progress(above + done * in_band); };
+  if (observers.progress()) of_picture = [&](double done) { observers.progress()(above + done * in_band); };
 
   int y = all.y0;
   const auto next = [&]() -> std::optional<Tile> {
@@ -97,7 +119,7 @@ Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, 
     y = band.y1;
     return band;
   };
-  return draw(scene, tracer, settings, next, take, of_picture, cancel);
+  return draw(scene, tracer, settings, next, take, of_picture, observers.cancel());
 }
 
 class SlicedPicture::Implementation {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/watch.h"
 #include "bihive/bih/reference_builder.h"
 #include "bihive/render/query/brute_engine.h"
 #include "bihive/render/query/cut_engine.h"
@@ -24,9 +25,13 @@ Built build_engine(const SphereSet& spheres, const EngineParameters& parameters)
   if (parameters.engine == Engine::wide_brute) return Built(std::make_shared<BruteEngine<true>>(spheres));
   if (parameters.engine == Engine::reference) {
     if (Status status = check_tree_memory(spheres, parameters.engine, parameters.tree); !status) return status.error();
+    WatchedWork work;
     try {
       auto tree = std::make_shared<const Tree>(build_reference_tree(spheres, parameters.tree.for_reference()));
+      work.report(1);
       return Built(std::make_shared<ReferenceEngine>(spheres, std::move(tree)));
+    } catch (const Cancelled&) {
+      return cancelled_error();
     } catch (const std::bad_alloc&) {
       return no_memory_for("the reference tree of " + std::to_string(spheres.size()) + " spheres");
     }

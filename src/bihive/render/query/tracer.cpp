@@ -7,6 +7,7 @@
 
 #include "bihive/base/check.h"
 #include "bihive/base/timer.h"
+#include "bihive/base/watch.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/query/build_engine.h"
 #include "bihive/render/query/pixel_order.h"
@@ -37,6 +38,7 @@ WideParameters TreeParameters::for_wide(std::int64_t spheres) const {
 }
 
 Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters, int threads) {
+  WatchedWork work(WatchedWork::InnerProgress::passed_on);
   const Timer timer;
   const EngineParameters built(engine, parameters, threads);
   Result<std::shared_ptr<const RayEngine>> rays = build_engine(spheres, built);
@@ -44,6 +46,7 @@ Result<Tracer> Tracer::build(const SphereSet& spheres, Engine engine, const Tree
   Tracer tracer(spheres, built.engine, std::move(*rays));
   tracer.has_images_ = spheres.has_images();
   if (!is_brute(built.engine) || tracer.has_images_) tracer.build_ms_ = timer.elapsed_ms();
+  work.report(1);
   return tracer;
 }
 
@@ -55,6 +58,7 @@ Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParame
   const std::int64_t count = first < 0 ? scene.spheres.size() : first;
   BIHIVE_CHECK(cuts != nullptr || count == scene.spheres.size());
   if (cuts == nullptr) return build(scene.spheres, engine, parameters, threads);
+  WatchedWork work(WatchedWork::InnerProgress::passed_on);
   const Timer timer;
   const EngineParameters built(engine, parameters, threads);
   std::vector<std::int64_t> all(static_cast<std::size_t>(count));
@@ -64,6 +68,7 @@ Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParame
   Tracer tracer(scene.spheres, built.engine, std::move(*rays));
   tracer.has_clips_ = true;
   if (!is_brute(built.engine)) tracer.build_ms_ = timer.elapsed_ms();
+  work.report(1);
   return tracer;
 }
 

@@ -169,7 +169,7 @@ void Collapse::make_subtree(Subtree& subtree) const {
   }
 }
 
-void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads) {
+void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads, const WatchedWork& work) {
   parameters_ = parameters;
 
   // Build the top here; each subtree of at most kSubtreeSpheres spheres becomes a task.
@@ -190,7 +190,8 @@ void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters,
     const WideNode node = make_node(job, top_, top_.jobs);
     top_.nodes[static_cast<std::size_t>(job.place)] = node;
   }
-  parallel_for(threads, static_cast<std::int64_t>(subtree_count_), [this](std::int64_t i) {
+  parallel_for(threads, static_cast<std::int64_t>(subtree_count_), [this, &work](std::int64_t i) {
+    if (work.cancelled()) return;
     Subtree& subtree = subtrees_[static_cast<std::size_t>(i)];
     try {
       subtree.out_of_memory = false;
@@ -199,6 +200,8 @@ void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters,
       subtree.out_of_memory = true;
     }
   });
+
+  work.stop_if_cancelled();
 
   // Put the subtrees one after the other.
   node_count_ = static_cast<std::int64_t>(top_.nodes.size());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bihive/base/watch.h"
 #include "bihive/wide/build/binary_tree.h"
 #include "bihive/wide/wide_tree.h"
 
@@ -16,8 +17,8 @@ struct CollapseParameters {
 /// Makes the wide nodes of a binary tree, in subtrees that do not depend on the number of threads.
 class Collapse {
  public:
-  /// Throws std::bad_alloc.
-  void run(const BinaryNode& root, const CollapseParameters& parameters, int threads);
+  /// Throws std::bad_alloc, and Cancelled if the work is.
+  void run(const BinaryNode& root, const CollapseParameters& parameters, int threads, const WatchedWork& work);
 
   std::int64_t node_count() const { return node_count_; }
   int levels() const { return levels_; }

@@ -45,6 +45,7 @@ class Splitter {
     node.axis = 0;
     node.split = nullptr;
     if (range.count <= context_.full_leaf) return finish_leaf(range);
+    if (range.count > kTaskSpheres && context_.cancelled()) return;
 
     // Find the longest side of the centres' box.
     const Vec3f side = range.centres.hi - range.centres.lo;
@@ -77,11 +78,15 @@ class Splitter {
   }
 
   static void run(SplitContext& context, const SplitRange& range, TaskList& list) {
-    if (context.out_of_memory) return;
+    if (context.out_of_memory || context.cancelled()) return;
     try {
       Splitter splitter(context, list);
       splitter.split(range);
       context.spheres_read += splitter.spheres_read_;
+      const std::int64_t done = context.spheres_in_leaves += splitter.spheres_in_leaves_;
+      if (context.work != nullptr)
+        context.work->report(kShareBeforeSplit + (kShareAfterSplit - kShareBeforeSplit) * static_cast<double>(done) /
+                                                     static_cast<double>(context.spheres));
       if (splitter.repeated_.empty()) return;
       const std::lock_guard lock(context.mutex);
       context.repeated.insert(context.repeated.end(), splitter.repeated_.begin(), splitter.repeated_.end());
@@ -174,6 +179,7 @@ class Splitter {
     HWY_ALIGN std::uint32_t hashes[kWidth];
     const bool is_small = range.count <= kWidth;
     spheres_read_ += range.count;
+    spheres_in_leaves_ += range.count;
     GrowingBox box;
     for_lanes(range.count, [&](std::int64_t i, FloatMask valid, auto whole) HWY_ATTR {
       const std::int64_t at = range.first + i;
@@ -229,6 +235,7 @@ class Splitter {
   SplitSource source_;
   std::vector<RepeatedSphere> repeated_;
   std::int64_t spheres_read_ = 0;
+  std::int64_t spheres_in_leaves_ = 0;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

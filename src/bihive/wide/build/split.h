@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bihive/base/parallel.h"
+#include "bihive/base/watch.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/wide/build/binary_tree.h"
 #include "bihive/wide/build/tuning.h"
@@ -63,10 +64,15 @@ struct SplitContext {
   std::int64_t full_leaf = kWidth;
   NodeArena* arena = nullptr;
 
+  WatchedWork* work = nullptr;  ///< null: nobody watches. Once it is cancelled, nodes stay without content
+  std::int64_t spheres = 0;     ///< in all
+  std::atomic<std::int64_t> spheres_in_leaves{0};
   std::atomic<bool> out_of_memory{false};
   std::atomic<std::int64_t> spheres_read{0};  ///< work done: each sphere counts once per pass
   std::mutex mutex;
   std::vector<RepeatedSphere> repeated;  ///< in no order
+
+  bool cancelled() const { return work != nullptr && work->cancelled(); }
 };
 
 /// Spheres first to first + count - 1 of one of the two arrays, which become the tree under `node`.

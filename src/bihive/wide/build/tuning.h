@@ -19,6 +19,12 @@ constexpr std::int64_t kTaskSpheres = 8192;
 /// Subtrees of at most this many spheres are collapsed by one task.
 constexpr std::int64_t kSubtreeSpheres = 65536;
 
+// ---- What a watcher is told (base/watch.h) ----
+
+/// The shares of the time that are over when the first sphere, and when the last one, is in its leaf.
+constexpr double kShareBeforeSplit = 0.1;
+constexpr double kShareAfterSplit = 0.85;
+
 // ---- Where to split ----
 
 /// At this depth and below, ranges are halved by count: a guard against hostile sets.

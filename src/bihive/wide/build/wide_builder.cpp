@@ -10,6 +10,7 @@
 #include "bihive/base/memory.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/readable.h"
+#include "bihive/base/watch.h"
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/build/collapse.h"
 #include "bihive/wide/build/count_limit.h"
@@ -89,11 +90,13 @@ struct WideBuilder::State {
   std::vector<SplitRange> split_cells(const CellGrid& grid, const std::vector<std::int64_t>& begins,
                                       std::int64_t most_spheres, BinaryNode& root);
   void build_all(const SphereSet& spheres, const WideParameters& parameters, int threads, std::int64_t most_ids,
-                 WideTree& tree);
+                 WideTree& tree, WatchedWork& work);
   void build_part(const SphereSet& spheres, const std::vector<std::int64_t>& ids, const WideParameters& parameters,
-                  int threads, WideTree& tree);
-  void build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
-  void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree);
+                  int threads, WideTree& tree, WatchedWork& work);
+  void build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree,
+                            WatchedWork& work);
+  void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree,
+             WatchedWork& work);
 };
 
 InputSummary WideBuilder::State::summarize(const SphereSet& spheres, const Chunks& chunks, int threads) const {
@@ -202,10 +205,12 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
     const CellGrid grid(summary.centres);
     std::vector<std::int64_t> begins;
     sort_into_cells(spheres, grid, context, threads, begins);
+    context.work->stop_if_cancelled();
     const auto ranges = split_cells(grid, begins, std::max(kTaskSpheres, context.full_leaf), root);
     parallel_tasks(threads, [&](TaskList& list) {
       for (const SplitRange& range : ranges)
         list.add([&context, &list, range] {
+          if (context.cancelled()) return;
           SplitRange bounded = range;
           bounded.centres = wide::bound_centres(context, range);
           wide::split_range(context, bounded, list);
@@ -213,12 +218,13 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
     });
   }
   if (context.out_of_memory) throw std::bad_alloc();
+  context.work->stop_if_cancelled();
   wide::close_tops(root);
 }
 
 // Puts every sphere in a leaf. The ids need room for `most_ids` of them.
 void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameters& parameters, int threads,
-                                   std::int64_t most_ids, WideTree& tree) {
+                                   std::int64_t most_ids, WideTree& tree, WatchedWork& work) {
   const std::int64_t count = spheres.size();
   tree.scale = spheres.scale();
   tree.origin = spheres.origin();
@@ -236,8 +242,11 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
 
   // Examine the spheres, and allocate their arrays.
   const InputSummary summary = summarize(spheres, Chunks(count), threads);
+  work.stop_if_cancelled();
   const bool has_palette = !summary.palette.overflow && most_ids <= std::int64_t{WideSpheres::kIdMask};
   SplitContext context;
+  context.work = &work;
+  context.spheres = count;
   context.scratch = place_arrays(count, has_palette, sphere_memory);
   context.final = place_arrays(count, has_palette, tree.sphere_memory);
   context.largest_radius = summary.largest_radius;
@@ -255,7 +264,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   arena.clear();
   BinaryNode root;
   split(spheres, summary, context, root, threads);
-  collapse.run(root, shape, threads);
+  collapse.run(root, shape, threads, work);
 
   // Keep the result, with spare room for a few more nodes in the next frame.
   const auto node_bytes = static_cast<std::size_t>(collapse.node_count()) * sizeof(WideNode);
@@ -283,8 +292,8 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
 
 // Builds the tree of some spheres, ascending, under the ids of the whole set.
 void WideBuilder::State::build_part(const SphereSet& spheres, const std::vector<std::int64_t>& ids,
-                                    const WideParameters& parameters, int threads, WideTree& tree) {
-  build_all(spheres.part(ids), parameters, threads, spheres.size(), tree);
+                                    const WideParameters& parameters, int threads, WideTree& tree, WatchedWork& work) {
+  build_all(spheres.part(ids), parameters, threads, spheres.size(), tree, work);
   const SphereArrays arrays = place_arrays(tree.placed, tree.spheres.has_palette, tree.sphere_memory);
   const std::uint32_t mask = tree.spheres.id_mask();
   for (std::int64_t slot = 0; slot < tree.placed; ++slot) {
@@ -297,8 +306,8 @@ void WideBuilder::State::build_part(const SphereSet& spheres, const std::vector<
 // Spheres that no plane separates lie in one leaf, and a ray would test all of them. So if more than a leaf's spheres
 // are equal, the tree is built again with only the first of them.
 void WideBuilder::State::build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads,
-                                              WideTree& tree) {
-  build_all(spheres, parameters, threads, spheres.size(), tree);
+                                              WideTree& tree, WatchedWork& work) {
+  build_all(spheres, parameters, threads, spheres.size(), tree, work);
   find_piles(tree.repeated, tree.piles, tree.others_in_piles);
   if (tree.piles.empty()) return;
   std::vector<Pile> piles = std::move(tree.piles);
@@ -319,7 +328,7 @@ void WideBuilder::State::build_without_others(const SphereSet& spheres, const Wi
   // The new nodes are fewer, so the memory of the old ones is released first.
   collapse = Collapse();
   tree.node_memory = AlignedBuffer();
-  build_part(spheres, kept, parameters, threads, tree);
+  build_part(spheres, kept, parameters, threads, tree, work);
 
   // Restore the tree's facts about all spheres.
   tree.piles = std::move(piles);
@@ -327,16 +336,16 @@ void WideBuilder::State::build_without_others(const SphereSet& spheres, const Wi
   tree.repeated = std::move(repeated);
 }
 
-void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads,
-                               WideTree& tree) {
+void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree,
+                               WatchedWork& work) {
   tree.outer = nullptr;
-  build_without_others(spheres, parameters, threads, tree);
+  build_without_others(spheres, parameters, threads, tree, work);
   EnclosedSpheres enclosed = find_enclosed(tree);
   if (enclosed.cores.empty()) return;
   const auto outer = std::make_shared<OuterTree>();
-  build_part(spheres, enclosed.others, parameters, threads, outer->tree);
+  build_part(spheres, enclosed.others, parameters, threads, outer->tree, work);
   outer->tree.repeated = tree.repeated;  // a ray may exit an equal of an outer sphere
-  build_all(spheres.part(enclosed.enclosing), {}, threads, spheres.size(), outer->around_cores);
+  build_all(spheres.part(enclosed.enclosing), {}, threads, spheres.size(), outer->around_cores, work);
   outer->cores = std::move(enclosed.cores);
   tree.outer = outer;
 }
@@ -357,6 +366,7 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
   const std::int64_t count = spheres.size();
   if (Status status = check_wide_count(count); !status) return status.error();
   const std::string what = "the tree of " + grouped(count) + " spheres";
+  WatchedWork work;
   try {
     std::unique_ptr<WideTree> tree = state_->take_spare();
     const std::int64_t kept = scratch_bytes() + tree->allocated_bytes();
@@ -367,7 +377,8 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
       state_->give_back(std::move(tree));
       return status.error();
     }
-    state_->build(spheres, parameters, threads, *tree);
+    state_->build(spheres, parameters, threads, *tree, work);
+    work.report(1);
 
     // Its memory returns to the builder when the last holder releases it.
     const auto recycle = [keep = std::weak_ptr<State>(state_)](const WideTree* done) {
@@ -377,6 +388,8 @@ Result<std::shared_ptr<const WideTree>> WideBuilder::build(const SphereSet& sphe
     return std::shared_ptr<const WideTree>(tree.release(), recycle);
   } catch (const std::bad_alloc&) {
     return no_memory_for(what);
+  } catch (const Cancelled&) {
+    return cancelled_error();
   }
 }
 

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "bihive/base/parse_number.h"
+#include "bihive/base/watch.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/formats/molecules/alternates.h"
 #include "bihive/io/formats/molecules/atom_columns.h"
@@ -21,6 +22,9 @@
 
 namespace bihive {
 namespace {
+
+// Between two looks at whether the reading is cancelled.
+constexpr std::int64_t kWatchedAtoms = 4096;
 
 // The items of _atom_site that the reader takes.
 enum Item {
@@ -329,7 +333,7 @@ class AtomSites {
     if (done_ || row[kX].text.empty() || row[kY].text.empty() || row[kZ].text.empty()) return;
 
     // Take atoms of one model only.
-    ++atoms_;
+    if (++atoms_ % kWatchedAtoms == 0) stop_if_cancelled();
     const auto next_model = static_cast<std::int64_t>(model_of_name_.size());
     const auto model = model_of_name_.try_emplace(std::string(row[kModel].text), next_model).first->second;
     if (model != frame_) return;
