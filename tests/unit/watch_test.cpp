@@ -87,7 +87,7 @@ TEST(Watch, a_build_reports_and_ends_with_1) {
 }
 
 TEST(Watch, the_reference_builder_and_tracers_report_too) {
-  const SphereSet set = many_spheres(300000);
+  const SphereSet set = many_spheres(1500000);
   for (const Engine engine : {Engine::reference, Engine::wide}) {
     Heard heard;
     const Watch watch(heard.callback());

@@ -14,10 +14,10 @@ namespace bihive {
 /// The answer of `body`, a Result; an error if it throws. `name` is the file's, for messages. The work is watched.
 template <class Body>
 auto without_throwing(const std::string& name, const Body& body) -> decltype(body()) {
-  WatchedWork work;
+  WatchedWork work(WatchedWork::InnerProgress::passed_on);
   try {
     auto answer = body();
-    if (answer) work.report(1);
+    if (answer && !work.is_nested()) work.report(1);
     return answer;
   } catch (const Cancelled&) {
     if (work.is_nested()) throw;
