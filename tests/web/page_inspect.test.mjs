@@ -26,6 +26,7 @@ async function open_own(page, file, words) {
 // Where the front view of parallel rays shows a point.
 async function places(page, points) {
   const { camera } = (await link_state(page)).settings;
+  await page.click('#messages button'); // what is said of the link lies over the picture
   assert.equal(camera.projection, 'orthographic');
   const box = await page.locator('#picture').boundingBox();
   const scale = Math.min(box.width, box.height) / camera.shorter_side;
@@ -34,6 +35,7 @@ async function places(page, points) {
   ]);
 }
 
+const wide = { viewport: { width: 1400, height: 900 } }; // the list of pins lies beside the spheres
 const pinned = (page, count) => page.waitForFunction((n) => document.querySelectorAll('#pin_list li').length === n, count);
 
 // What the program prints of the same spheres.
@@ -43,7 +45,7 @@ function printed(option, ids) {
 }
 
 test('the pointer names a sphere, clicks measure', async () => {
-  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, wide);
   await open_own(page, csv, '4 spheres');
   await and_settle(page, () => page.selectOption('#projection', 'orthographic'));
   const at = await places(page, centres);
@@ -127,9 +129,9 @@ test('measures follow the frames', async () => {
     await page.mouse.click(...place);
     await pinned(page, i + 1);
   }
-  assert.equal(await page.textContent('#pins_measure'), 'Distance 3 Å');
+  assert.equal(await page.textContent('#pins_measure'), 'Distance 3');
   await page.click('#player_on');
-  await page.waitForFunction(() => document.getElementById('pins_measure').textContent === 'Distance 4.5 Å');
+  await page.waitForFunction(() => document.getElementById('pins_measure').textContent === 'Distance 4.5');
   no_complaints(complaints);
   await context.close();
 });
