@@ -97,6 +97,7 @@ def cases(folder):
         "Perspective.words": lambda: bh.Perspective("top").words(),
         "Look": lambda: bh.render(s, looks=[bh.Look("charge > 0", colour="red")], **options),
         "Look.words": lambda: bh.Look("charge > 0", colour="red").words(),
+        "Look.arrays": lambda: bh.render(s, looks=[bh.Look(colour=np.full((len(s), 3), 0.5))], **options),
         "Style": lambda: bh.render(s, style="illustrative", **options),
         "Style.text": lambda: bh.Style({}).text(),
         "colour_map": lambda: bh.colour_map(xyz[:, 0]),
