@@ -160,10 +160,10 @@ export class Inspector {
       down = null;
     });
     for (const end of ['pointercancel', 'pointerleave'] as const)
-      picture.addEventListener(end, () => {
+      picture.addEventListener(end, ({ pointerType }) => {
         clearTimeout(pressing);
         down = null;
-        this.hide_tip();
+        if (pointerType !== 'touch') this.hide_tip(); // a finger leaves after each tap
       });
     picture.addEventListener('wheel', () => this.hide_tip(), { passive: true });
     picture.addEventListener('keydown', (event) => {
