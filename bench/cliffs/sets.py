@@ -86,7 +86,7 @@ SETS = {
     "one in a hundred twice": lambda rng, n: duplicated(rng, n, 0.01),
     "half of them twice": lambda rng, n: duplicated(rng, n, 0.5),
     "all equal": lambda rng, n: rows(np.zeros((n, 3)), 1),
-    "a thousand piles": lambda rng, n: uniform(rng, 1000)[np.arange(n) % 1000],
+    "1,000 piles of equal spheres": lambda rng, n: uniform(rng, 1000)[np.arange(n) % 1000],
     "deep overlap": lambda rng, n: uniform(rng, n, 8.0),
     "deep overlap, many radii": lambda rng, n: uniform(rng, n, rng.uniform(0.8, 8, n)),
     "touching much": lambda rng, n: uniform(rng, n, 1.5),

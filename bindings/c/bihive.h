@@ -53,9 +53,9 @@ typedef int (*bihive_progress)(double done, void* context);
  *   return. The first call comes after 50 ms, so short work calls it never; there is no last one with 1.
  * - It must return, so it must not throw or longjmp, and it must not use the handle that is being made, changed or
  *   drawn.
- * - A cancelled call returns BIHIVE_CANCELLED soon, usually within a tenth of a second. A handle to be made is NULL, a
- *   tree to be updated is as before, a scene can be drawn again, and the pixels of `rgba` are undefined or as before.
- * If the work ends first, the call returns 0. */
+ * - A cancelled call soon returns BIHIVE_CANCELLED. A handle to be made is NULL, a tree to be updated is as before, a
+ * scene can be drawn again, and the pixels of `rgba` are undefined or as before. If the work ends first, the call
+ * returns 0. */
 BIHIVE_API void bihive_set_progress(bihive_progress progress, void* context);
 
 /* ---- Spheres and their tree ---- */

@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 
+#include "bihive.h"
 #include "bihive/base/result.h"
 #include "bihive/job/failure.h"
 
@@ -11,7 +12,7 @@ namespace bihive::c {
 
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
-constexpr int kCancelled = 2;
+constexpr int kCancelled = BIHIVE_CANCELLED;
 
 /// Stores the text for bihive_error_text() of this thread, without heap memory; truncates very long ones.
 int failed(const char* text) noexcept;

@@ -11,15 +11,15 @@
 
 namespace bihive::c {
 
-/// What bihive_set_progress() set for a thread.
+/// The progress function of a thread, as bihive_set_progress() set it.
 struct Progress {
   bihive_progress report = nullptr;  ///< null: none
   void* context = nullptr;
 };
 Progress progress_of_thread() noexcept;
 
-/// As guarded(), for long work: body(Work*) gets null if nobody follows, and else runs on another thread. What is
-/// watched there ends once it is cancelled.
+/// guarded() for long calls. Without a progress function body(nullptr) runs on this thread; with one body(&work) runs
+/// on another, and the calls watched there end once the work is cancelled.
 template <class Body>
 int guarded_long(const Body& body) noexcept {
   const Progress progress = progress_of_thread();
@@ -39,8 +39,8 @@ int guarded_long(const Body& body) noexcept {
   });
 }
 
-/// While it lives, the progress of watched calls on this thread is this section of the whole work. For nobody if there
-/// is none.
+/// While it lives, watched calls on this thread report their progress as this section of the whole work. Does nothing
+/// without work.
 class Section {
  public:
   Section(Work* work, double begin, double end) {

@@ -12,6 +12,8 @@
 #include "answers.h"
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
+#include "bihive/geometry/lattice.h"
+#include "bihive/geometry/measures.h"
 #include "bihive/io/frames.h"
 #include "bihive/io/reading_settings.h"
 #include "bihive/scene/camera_lights.h"
@@ -278,6 +280,20 @@ std::string Page::sphere(double id) const {
   });
 }
 
+std::string Page::measured(const emscripten::val& ids) const {
+  return with_memory([&] {
+    const SphereSet& spheres = viewer_.scene().spheres;
+    std::vector<std::int64_t> of;
+    for (const double id : emscripten::vecFromJSArray<double>(ids))
+      if (id >= 0 && id < double(spheres.size())) of.push_back(static_cast<std::int64_t>(id));
+    const std::optional<Lattice> lattice = Lattice::of(spheres.cell());
+    ordered_json value;
+    if (of.size() >= 2 && of.size() <= 4)
+      if (const double measure = bihive::measured(spheres, of, lattice); std::isfinite(measure)) value = measure;
+    return text_of({{"value", value}, {"nearest_images", lattice.has_value()}});
+  });
+}
+
 emscripten::val Page::pixels() const {
   return emscripten::val(emscripten::typed_memory_view(pixels_.size(), pixels_.data()));
 }
@@ -342,6 +358,7 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("let_page_through", &Page::let_page_through)
       .function("pick", &Page::pick)
       .function("sphere", &Page::sphere)
+      .function("measured", &Page::measured)
       .function("show", &Page::show)
       .function("begin_picture", &Page::begin_picture)
       .function("step_picture", &Page::step_picture)

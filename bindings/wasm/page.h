@@ -85,6 +85,9 @@ class Page {
   std::string pick(double x_px, double y_px) const;
   /// The same of a sphere by its id, at its centre.
   std::string sphere(double id) const;
+  /// {"value": of geometry/measures.h, or null, "nearest_images": the set has a periodic cell}: the distance, angle or
+  /// dihedral angle of an array of two to four ids.
+  std::string measured(const emscripten::val& ids) const;
   std::string statistics() const { return viewer_.statistics_json(); }
 
   // A picture to be saved, one step for each call. frame() and set() drop it.

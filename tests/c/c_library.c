@@ -6,16 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "promises.h"
+
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-static int failures = 0;
-
-static void expect(int holds, const char* what, int line) {
-  if (holds) return;
-  ++failures;
-  fprintf(stderr, "line %d: %s (last error: %s)\n", line, what, bihive_error_text());
-}
-#define EXPECT(condition) expect((condition) != 0, #condition, __LINE__)
 #define EXPECT_ERROR(call, text)                         \
   do {                                                   \
     EXPECT((call) == 1);                                 \

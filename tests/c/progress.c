@@ -6,16 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "promises.h"
+
 enum { kSpheres = 3000000, kAtoms = 600000, kSide = 700 };
-
-static int failures = 0;
-
-static void expect(int holds, const char* what, int line) {
-  if (holds) return;
-  ++failures;
-  fprintf(stderr, "line %d: %s (last error: %s)\n", line, what, bihive_error_text());
-}
-#define EXPECT(condition) expect((condition) != 0, #condition, __LINE__)
 
 /* Its address is another one on each thread. */
 static _Thread_local int of_this_thread;

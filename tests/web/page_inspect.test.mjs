@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { devices } from 'playwright-core';
 import {
-  and_settle, compare, link_state, no_complaints, open_page, saved_picture, scratch, settled, shown_picture, small, with_page,
+  and_settle, compare, link_state, no_complaints, open_own, open_page, saved_picture, scratch, shown_picture, small, with_page,
 } from './page_kit.mjs';
 
 const kit = with_page();
@@ -17,11 +17,8 @@ writeFileSync(csv, `x,y,z,r,kind\n${centres.map((centre, i) => [...centre, 1, 'A
 const moving = join(scratch, 'moving.xyz');
 writeFileSync(moving, '2\nfirst\nC 0 0 0\nC 3 0 0\n2\nsecond\nC 0 0 0\nC 4.5 0 0\n');
 
-async function open_own(page, file, words) {
-  await page.setInputFiles('#file', file);
-  await page.waitForFunction((text) => document.getElementById('facts').textContent.includes(text), words);
-  await settled(page);
-}
+const in_cell = join(scratch, 'in_cell.xyz');
+writeFileSync(in_cell, '2\nLattice="10 0 0 0 10 0 0 0 10" Properties=species:S:1:pos:R:3\nC 1 5 5\nC 9 5 5\n');
 
 // Where the front view of parallel rays shows a point.
 async function places(page, points) {
@@ -38,9 +35,14 @@ async function places(page, points) {
 const wide = { viewport: { width: 1400, height: 900 } }; // the list of pins lies beside the spheres
 const pinned = (page, count) => page.waitForFunction((n) => document.querySelectorAll('#pin_list li').length === n, count);
 
+const measure = async (page, name) => {
+  await page.waitForFunction((start) => document.getElementById('pins_measure').textContent.startsWith(start), name);
+  return page.textContent('#pins_measure');
+};
+
 // What the program prints of the same spheres.
-function printed(option, ids) {
-  const lines = execFileSync(process.env.BIHIVE, ['info', csv, option, ids], { encoding: 'utf8' }).trim().split('\n');
+function printed(file, option, ids) {
+  const lines = execFileSync(process.env.BIHIVE, ['info', file, option, ids], { encoding: 'utf8' }).trim().split('\n');
   return Number(lines.at(-1).split(',').at(-1));
 }
 
@@ -56,14 +58,13 @@ test('the pointer names a sphere, clicks measure', async () => {
   await page.mouse.move(5, 5);
   await page.waitForSelector('#tip', { state: 'hidden' });
 
-  const measures = [/^$/, printed('--distance', '0,1'), printed('--angle', '0,1,2'), printed('--dihedral', '0,1,2,3')];
+  const measures = [0, printed(csv, '--distance', '0,1'), printed(csv, '--angle', '0,1,2'), printed(csv, '--dihedral', '0,1,2,3')];
   for (const [i, place] of at.entries()) {
     await page.mouse.click(...place);
     await pinned(page, i + 1);
-    const words = await page.textContent('#pins_measure');
-    if (i === 0) assert.match(words, measures[0]);
+    if (i === 0) assert.equal(await page.textContent('#pins_measure'), '');
     else {
-      assert.ok(words.startsWith(['', 'Distance', 'Angle', 'Dihedral'][i]), words);
+      const words = await measure(page, ['', 'Distance', 'Angle', 'Dihedral'][i]);
       assert.ok(Math.abs(Number(words.match(/-?[\d.]+/)[0]) - measures[i]) < 1e-3, `${words}, and the program has ${measures[i]}`);
     }
   }
@@ -129,9 +130,23 @@ test('measures follow the frames', async () => {
     await page.mouse.click(...place);
     await pinned(page, i + 1);
   }
-  assert.equal(await page.textContent('#pins_measure'), 'Distance 3');
+  assert.equal(await measure(page, 'Distance'), 'Distance 3');
   await page.click('#player_on');
   await page.waitForFunction(() => document.getElementById('pins_measure').textContent === 'Distance 4.5');
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a distance in a periodic cell is that of nearest images, as the program has it', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, wide);
+  await open_own(page, in_cell, '2 spheres');
+  await and_settle(page, () => page.selectOption('#projection', 'orthographic'));
+  for (const [i, place] of (await places(page, [[1, 5], [9, 5]])).entries()) {
+    await page.mouse.click(...place);
+    await pinned(page, i + 1);
+  }
+  assert.match(await measure(page, 'Distance'), /^Distance 2( Å)?, of nearest images$/);
+  assert.equal(printed(in_cell, '--distance', '0,1'), 2);
   no_complaints(complaints);
   await context.close();
 });

@@ -76,6 +76,13 @@ export const sheet_still = (page) =>
     await Promise.all(document.getElementById('panel').getAnimations().map(({ finished }) => finished));
   });
 
+/** Opens a file of the user's, and waits until the page says these words of it, and for its picture. */
+export async function open_own(page, file, words) {
+  await page.setInputFiles('#file', file);
+  await page.waitForFunction((text) => document.getElementById('facts').textContent.includes(text), words);
+  await settled(page);
+}
+
 /** Does something that begins a new picture, and waits for the end of it. */
 export async function and_settle(page, work) {
   await page.evaluate(() => (document.getElementById('picture').dataset.settled = 'false'));

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { and_settle, link_state, no_complaints, open_page, scratch, set_value, settled, shown_picture, small, with_page } from './page_kit.mjs';
+import { and_settle, link_state, no_complaints, open_own, open_page, scratch, set_value, settled, shown_picture, small, with_page } from './page_kit.mjs';
 
 const kit = with_page();
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -85,9 +85,7 @@ test('a drag is one step, a new change ends redo, and a second scene has its own
 // It once changed the text of a row without the page noticing.
 test('the key undoes what is typed first, then what was chosen', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
-  await page.setInputFiles('#file', own_file);
-  await page.waitForFunction(() => document.getElementById('facts').textContent.includes('3 spheres'));
-  await settled(page);
+  await open_own(page, own_file, '3 spheres');
   await page.click('#look_add');
   const [select, action] = [page.locator('.look_row .select'), page.locator('.look_row .action')];
   await apart(page, async () => {
@@ -116,9 +114,7 @@ test('the key undoes what is typed first, then what was chosen', async () => {
 
 test('another radius is undone by reading the file again', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
-  await page.setInputFiles('#file', own_file);
-  await page.waitForFunction(() => document.getElementById('facts').textContent.includes('3 spheres'));
-  await settled(page);
+  await open_own(page, own_file, '3 spheres');
   const before = await shown_picture(page, '#cpu_canvas');
   await apart(page, () => set_value(page, '#radius_scale', 2));
   await page.waitForFunction(() => document.getElementById('undo').getAttribute('aria-disabled') === 'false');
@@ -141,9 +137,7 @@ const reloaded = async (page) => {
 
 test('a reload brings back the file, the state and the history, until it is forgotten', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
-  await page.setInputFiles('#file', own_file);
-  await page.waitForFunction(() => document.getElementById('facts').textContent.includes('3 spheres'));
-  await settled(page);
+  await open_own(page, own_file, '3 spheres');
   await apart(page, () => page.click('#style label:has(input[value=flat])'));
   await apart(page, () => page.click('[data-side=left]'));
   const before = await shown_picture(page, '#cpu_canvas');
@@ -185,8 +179,7 @@ test('a reload brings back the file, the state and the history, until it is forg
 
 test('the link to the controls does not load another scene', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
-  await page.setInputFiles('#file', own_file);
-  await page.waitForFunction(() => document.getElementById('facts').textContent.includes('3 spheres'));
+  await open_own(page, own_file, '3 spheres');
   await page.focus('.skip');
   await page.keyboard.press('Enter');
   await pause(1500);

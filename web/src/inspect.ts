@@ -2,15 +2,14 @@
 import { element } from './dom';
 import { has_host } from './embedded';
 import { readable } from './field';
-import { measured } from './measure';
 import { speak } from './messages';
 import { minus, seen_at, type Vec3 } from './projection';
-import type { Camera, Picked } from './protocol';
+import type { Camera, Measure, Picked } from './protocol';
 
 export interface InspectActions {
   /** Asks for the sphere there, in pixels of the page; picked() gets the answer under the id that is returned. */
   pick(x: number, y: number): number;
-  /** Asks for these spheres by their ids; described() gets the answer. */
+  /** Asks for these spheres by their ids, and for the measure of them; described() gets the answer. */
   describe(spheres: number[]): void;
   camera(): Camera | null;
   look_at(eye: Vec3, look_at: Vec3): void;
@@ -25,6 +24,7 @@ const rest_ms = 120; // of the pointer before its place is asked for
 const long_press_ms = 500;
 const most_click_px = 4;
 const most_pins = 4;
+const measures = ['', '', 'Distance', 'Angle', 'Dihedral']; // by the number of pins
 const closer = 0.5; // of the distance that is left after a double click
 
 /** What it is, in a few words: "CA, ALA 28, chain A". */
@@ -54,6 +54,7 @@ export class Inspector {
   private readonly marks = document.getElementById('marks') as unknown as SVGSVGElement;
   private readonly asked = new Map<number, { why: 'name' | 'pin' | 'centre'; place: Place }>();
   private pins: Picked[] = [];
+  private news = ''; // for those who hear the page, once the measure is known
   private unit = '';
   private timer = 0;
 
@@ -78,9 +79,13 @@ export class Inspector {
     if (this.pins.length > 0) this.actions.describe(this.pins.map(({ sphere }) => sphere));
   }
 
-  described(spheres: (Picked | null)[]): void {
+  described(spheres: (Picked | null)[], measure: Measure): void {
     const known = spheres.filter((one) => one !== null);
-    if (known.every(({ sphere }, i) => sphere === this.pins[i]?.sphere)) this.set_pins(known);
+    if (known.length !== this.pins.length || !known.every(({ sphere }, i) => sphere === this.pins[i]!.sphere)) return;
+    const words = this.words_of(measure);
+    this.set_pins(known, words);
+    if (this.news) speak([this.news, words].filter(Boolean).join('. '));
+    this.news = '';
   }
 
   /** The answer to a request of this class; false: of another one. */
@@ -208,17 +213,18 @@ export class Inspector {
     const others = this.pins.filter(({ sphere }) => sphere !== picked.sphere);
     const is_new = others.length === this.pins.length;
     this.set_pins(!is_new ? others : others.length < most_pins ? [...others, picked] : [picked]);
-    speak([`${is_new ? 'Pinned' : 'No longer pinned'}: ${title_of(picked)}`, this.measure()].filter(Boolean).join('. '));
+    this.news = `${is_new ? 'Pinned' : 'No longer pinned'}: ${title_of(picked)}`;
+    this.actions.describe(this.pins.map(({ sphere }) => sphere));
   }
 
-  private measure(): string {
-    const found = measured(this.pins.map(({ centre }) => centre));
-    if (!found) return '';
-    const unit = found.name === 'distance' ? (this.unit ? ` ${this.unit}` : '') : '°';
-    return `${found.name[0]!.toUpperCase()}${found.name.slice(1)} ${readable(found.value)}${unit}`;
+  private words_of({ value, nearest_images }: Measure): string {
+    const name = measures[this.pins.length]!;
+    if (value === null || name === '') return '';
+    const unit = name !== 'Distance' ? '°' : this.unit && ` ${this.unit}`;
+    return `${name} ${readable(value)}${unit}${nearest_images ? ', of nearest images' : ''}`;
   }
 
-  private set_pins(pins: Picked[]): void {
+  private set_pins(pins: Picked[], measure = ''): void {
     this.pins = pins;
     this.box.hidden = pins.length === 0;
     this.list.replaceChildren(
@@ -233,7 +239,7 @@ export class Inspector {
         return item;
       }),
     );
-    element('pins_measure').textContent = this.measure();
+    element('pins_measure').textContent = measure;
     this.draw();
   }
 }

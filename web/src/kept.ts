@@ -9,7 +9,7 @@ const longest_ms = 24 * 3600 * 1000;
 const most_bytes = 256e6; // of files; larger ones are not copied
 const after_ms = 400; // of rest
 
-interface Record {
+interface KeptState {
   tab: string;
   when: number;
   /** Of the page, and the text of its first input: another one begins anew. */
@@ -126,7 +126,7 @@ export class Keeper {
   private async read(tab: string): Promise<Kept | null> {
     const stores = this.base!.transaction(['states', 'files']);
     const [record, files] = await Promise.all([
-      done<Record | undefined>(stores.objectStore('states').get(tab)),
+      done<KeptState | undefined>(stores.objectStore('states').get(tab)),
       done<KeptFiles | undefined>(stores.objectStore('files').get(tab)),
     ]);
     if (!record || record.address !== location.href || record.start !== this.start) return null;
@@ -138,7 +138,7 @@ export class Keeper {
     const stores = base.transaction(['states', 'files'], 'readwrite');
     const [states, files] = [stores.objectStore('states'), stores.objectStore('files')];
     const young = new Set<IDBValidKey>();
-    for (const { tab, when } of await done<Record[]>(states.getAll()))
+    for (const { tab, when } of await done<KeptState[]>(states.getAll()))
       if (Date.now() - when < longest_ms) young.add(tab);
       else states.delete(tab);
     for (const tab of await done(files.getAllKeys())) if (!young.has(tab)) files.delete(tab);
@@ -157,7 +157,7 @@ export class Keeper {
   private write(): void {
     const { source, past, start, tab } = this;
     if (!source || !past || this.forgotten || !this.fits) return;
-    const record: Record = { tab, when: Date.now(), address: location.href, start, source, past };
+    const record: KeptState = { tab, when: Date.now(), address: location.href, start, source, past };
     this.work(async (base) => void (await done(base.transaction('states', 'readwrite').objectStore('states').put(record))));
   }
 

@@ -15,7 +15,9 @@ export function link_of(state: State): string {
   let binary = '';
   for (const byte of bytes) binary += String.fromCharCode(byte);
   const text = btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
-  return new URL(prefix + text, location.href).href;
+  const link = new URL(prefix + text, location.href);
+  link.searchParams.delete('embed'); // for a page of its own
+  return link.href;
 }
 
 // The largest radius that the library holds; a factor needs no more.

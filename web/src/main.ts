@@ -167,7 +167,7 @@ const engine = new Engine(
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
     picked: ({ id, picked }) => inspector.picked(id, picked) || host.picked(id, picked),
-    described: ({ spheres }) => inspector.described(spheres),
+    described: ({ spheres, measure }) => inspector.described(spheres, measure),
     picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => {
@@ -437,7 +437,7 @@ const shares_links = 'share' in navigator && matchMedia('(pointer: coarse)').mat
 async function copy_link(): Promise<void> {
   if (!settings) return;
   const link = link_of({ source, settings, look });
-  history.replaceState(null, '', link);
+  if (!is_embedded) history.replaceState(null, '', link);
   const words = 'file' in source ? `It asks for the file ${source.file}, which is not in it.` : '';
   if (shares_links) {
     // Closing the system's sheet is no fault.

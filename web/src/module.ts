@@ -30,6 +30,7 @@ export interface Page {
   let_page_through(): void;
   pick(x_px: number, y_px: number): string;
   sphere(id: number): string;
+  measured(ids: number[]): string;
   begin_picture(width_px: number, height_px: number, samples_per_pixel: number): string;
   step_picture(budget_ms: number): string;
   take_picture(): string;

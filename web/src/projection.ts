@@ -4,11 +4,11 @@ import type { Camera } from './protocol';
 export type Vec3 = readonly [number, number, number];
 
 export const minus = (a: Vec3, b: Vec3): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-export const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-export const cross = (a: Vec3, b: Vec3): Vec3 => [
+const dot = (a: Vec3, b: Vec3): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a: Vec3, b: Vec3): Vec3 => [
   a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0],
 ];
-export const length = (a: Vec3): number => Math.hypot(...a);
+const length = (a: Vec3): number => Math.hypot(...a);
 const unit = (a: Vec3): Vec3 => {
   const by = length(a);
   return [a[0] / by, a[1] / by, a[2] / by];

@@ -153,6 +153,12 @@ export interface Picked {
   attributes: Record<string, number | string | null>;
 }
 
+/** Of two to four spheres: a distance in the scene's unit, or an angle in degrees. */
+export interface Measure {
+  value: number | null; // null: of fewer, or not defined
+  nearest_images: boolean; // of a periodic cell
+}
+
 /** Messages to the worker. `id` is returned with the answer. */
 export type Request =
   | { type: 'start'; threads: boolean; base: string; embedded: boolean; wasm: WebAssembly.Module | null; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
@@ -185,7 +191,7 @@ export type Answer =
   | { type: 'player'; player: PlayerState }
   | { type: 'statistics'; json: string }
   | { type: 'picked'; id: number; picked: Picked | null }
-  | { type: 'described'; spheres: (Picked | null)[] }
+  | { type: 'described'; spheres: (Picked | null)[]; measure: Measure }
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }

@@ -3,7 +3,7 @@ import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun
 import { GlCanvas } from './gl_canvas';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
+  Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Measure, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
 } from './protocol';
 import { UserFiles } from './user_files';
 
@@ -332,7 +332,7 @@ async function pick({ id, x_px, y_px }: Request & { type: 'pick' }): Promise<voi
 // Of the frame that is shown.
 function describe({ spheres }: Request & { type: 'describe' }): void {
   const of_one = (id: number) => value_of<{ picked: Picked | null }>(page.sphere(id)).picked;
-  send({ type: 'described', spheres: has_scene ? spheres.map(of_one) : spheres.map(() => null) });
+  if (has_scene) send({ type: 'described', spheres: spheres.map(of_one), measure: value_of<Measure>(page.measured(spheres)) });
 }
 
 // A picture to be saved. No frames are drawn meanwhile.

@@ -24,7 +24,7 @@ class PerSphere:
         self.are_light = are_light
 
     def check(self, name: str, count: Optional[int]) -> None:
-        """`count`: of the spheres; None: they are in a file that is not read yet."""
+        """`count`: the number of spheres; None if their file has not been read."""
         if count is None:
             raise bad_argument(name, "an array needs spheres in memory", "read the file first: bihive.read(path)")
         if len(self.values) != count:

@@ -136,7 +136,7 @@ def render(
         between commas.
 
     Returns a Picture: the same bits as ``bihive render``, on any number of threads. Other Python threads run meanwhile, and
-    Ctrl-C ends it, the reading of a file and the building of a tree included, usually within half a second.
+    Ctrl-C ends it, the reading of a file and the building of a tree included.
 
     Raises UsageError and InputError (both ValueErrors), which name the argument; FileError (an OSError); MissingError, a
     RuntimeError, if the machine lacks something.

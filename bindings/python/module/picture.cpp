@@ -175,8 +175,8 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
   return picture;
 }
 
-// Values for each sphere, from an array of an action: the number of its --select, its option, and whether colours are
-// light. The words have a placeholder where the action belongs.
+// An array of a look, with a value for each sphere: the number of the --select, the option, the values, and whether
+// colours are light. The words have an option in its position, whose action the array replaces.
 using ArrayOfLook = std::tuple<std::size_t, std::string, Array<double>, bool>;
 
 std::vector<Vec3d> vectors_from(const Array<double>& rows) {
@@ -198,8 +198,8 @@ void take_array(LookOptions& options, const ArrayOfLook& array) {
 
   // The action takes the position of the first one of its kind.
   const auto put = [&actions = options.looks[look].actions, &words = options.words, word](
-                       const auto& is_placeholder, const std::string& option, const char* said, LookAction action) {
-    *std::find_if(actions.begin(), actions.end(), is_placeholder) = std::move(action);
+                       const auto& is_replaced, const std::string& option, const char* said, LookAction action) {
+    *std::find_if(actions.begin(), actions.end(), is_replaced) = std::move(action);
     for (std::size_t at = word; at < words.size(); ++at)
       if (words[at].starts_with(option + " ")) {
         words[at] = said;

@@ -219,7 +219,7 @@ SphereFile read_input_file(const InputOptions& options) {
   return without_scene(value_of(load_scene(bytes, options.input, reading)));
 }
 
-// Copies along a cell as spheres of their own, in a cell of them all: what an array has a row for is a sphere.
+// Makes the copies along the cell's vectors spheres of an enlarged cell, so that arrays have a row for each of them.
 SphereFile with_copies(SphereFile file) {
   const SphereSet& set = file.spheres;
   if (!set.has_images()) return file;

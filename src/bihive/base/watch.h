@@ -89,7 +89,8 @@ void stop_if_cancelled();
 /// The same, and reports that this share of the thread's WatchedWork is done.
 void stop_if_cancelled(double done);
 
-/// While it lives, nothing is watched on this thread: what throws must not be called by parallel_for().
+/// Suspends the thread's Watch as long as it lives. parallel_for() needs that: its bodies must not throw, as cancelled
+/// calls do.
 class Unwatched {
  public:
   Unwatched();

@@ -27,9 +27,9 @@ struct Work {
 
 constexpr std::chrono::milliseconds kBetweenLooks(50);
 
-/// Calls work(Work&), which may throw, on a thread of its own. What is watched there (base/watch.h) obeys Work::cancel.
-/// Until it ends, this thread calls look(done) every 50 ms; once that returns false, the work is cancelled. An
-/// exception of the work is thrown here. Throws std::system_error if there is no thread.
+/// Calls work(Work&), which may throw, on a thread of its own. The calls watched there (base/watch.h) obey
+/// Work::cancel. Until it ends, this thread calls look(done) every 50 ms; once that returns false, the work is
+/// cancelled. An exception of the work is thrown here. Throws std::system_error if there is no thread.
 template <class DoWork, class Look>
 void wait_for_work(const DoWork& work, const Look& look) {
   Work shared;

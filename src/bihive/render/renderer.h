@@ -25,10 +25,10 @@ struct Rendered {
 
 /// A stereo picture is that of render_stereo() (render/stereo.h). Settings must be in range (a programmer's error
 /// otherwise). The traversal and tree views need a tracer of the reference engine: an Error without one. The Error is
-/// cancelled_error() if the token was set before the picture was complete. Without `progress` and `cancel` the thread's
-/// Watch is told and asked (base/watch.h). The new film takes the memory of `film`, whose
-/// contents are lost; so all frames can share one film. Each thread that took part keeps its buffers for the next
-/// picture, usually a few MB (render/shade/wave/wave_integrator.h).
+/// cancelled_error() if the token was set before the picture was complete. Without `progress` and `cancel` those of the
+/// thread's Watch count (base/watch.h). The new film takes the memory of `film`, whose contents are lost; so all frames
+/// can share one film. Each thread that took part keeps its buffers for the next picture, usually a few MB
+/// (render/shade/wave/wave_integrator.h).
 Result<Rendered> render(const Scene& scene, const Tracer& tracer, const RenderSettings& settings,
                         const ProgressCallback& progress = {}, const CancelToken* cancel = nullptr, Film film = {});
 

@@ -1,4 +1,4 @@
-// What a point of the picture shows: the sphere there, and all that is known of it.
+// Picking: the sphere seen at a position in the picture, with its attributes.
 #pragma once
 
 #include <cstdint>

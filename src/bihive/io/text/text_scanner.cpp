@@ -16,7 +16,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 // Bytes of a file that are read at once. From 64 kB to 4 MB it makes no difference that can be measured.
 constexpr std::int64_t kWindowBytes = std::int64_t{1} << 18;
 
-// Whoever watches hears of every line whose number is a multiple of this power of two.
+// Lines from one report of progress to the next: a power of two, so that the test costs little.
 constexpr std::int64_t kWatchedLines = 4096;
 // The share of reading that is over at the end of the text: sets are made of the numbers then.
 constexpr double kShareOfText = 0.8;

@@ -10,7 +10,7 @@
 //   all hits       beams -> the remaining ones, by the sphere that they exit: beams -> the rest: scalar traversal
 //
 // Lists answer all rays that beams do not take at all (beams_take()). Where spheres lie inside others, closest and any
-// hit ask the outer tree first, and the whole tree for rays that may reach a core (wide/schedule/core_rays.h).
+// hit trace the outer tree first, and then the whole tree with the rays that may reach a core (schedule/core_rays.h).
 #include <algorithm>
 #include <cstdint>
 #include <limits>
