@@ -384,9 +384,15 @@ async function take_files(files: File[]): Promise<void> {
 }
 
 // The same file with other radii or columns. A camera that was not moved is placed again.
-function read_again(reading: Reading | undefined): void {
-  if (refused) return void open(wanted_files(refused, reading), refused.file.name, null, refused);
+// Columns may be those that a file lacked which could not be read; radii are of the shown one.
+function read_again(reading: Reading | undefined, columns_changed = true): void {
+  if (refused && columns_changed) return void open(wanted_files(refused, reading), refused.file.name, null, refused);
   if (!settings) return;
+  if (refused && reading) {
+    const { columns: _, ...radii } = reading;
+    const { columns } = source.reading ?? {};
+    reading = columns === undefined ? radii : { ...radii, columns };
+  }
   const { fov_deg, projection, aperture, focus } = settings.camera;
   const camera = framed ? { fov_deg, projection, aperture, focus } : settings.camera;
   open_shown(reading, { settings: { ...settings, camera }, look }, 'same');

@@ -77,8 +77,8 @@ const reading_inputs = () =>
     radius: HTMLInputElement, scale: HTMLInputElement, columns: HTMLInputElement,
   ];
 
-/** Calls `read` with the radii and columns that the panel asks for. */
-export function listen_for_reading(read: (reading: Reading | undefined) => void): void {
+/** Calls `read` with the radii and columns that the panel asks for, and whether the columns are what has changed. */
+export function listen_for_reading(read: (reading: Reading | undefined, columns_changed: boolean) => void): void {
   const [radius, scale, columns] = reading_inputs();
   for (const input of [radius, scale, columns])
     input.addEventListener('change', () => {
@@ -87,7 +87,7 @@ export function listen_for_reading(read: (reading: Reading | undefined) => void)
       if (radius.value !== '') reading.radius = Number(radius.value);
       if (scale.value !== '') reading.radius_scale = Number(scale.value);
       if (columns.value.trim() !== '') reading.columns = columns.value.trim();
-      read(Object.keys(reading).length > 0 ? reading : undefined);
+      read(Object.keys(reading).length > 0 ? reading : undefined, input === columns);
     });
 }
 
