@@ -291,6 +291,7 @@ bool EffectsPanel::draw_light(ViewerSettings& settings, ViewerLook& look) {
           "at:X,Y,Z:COLOUR:STRENGTH:RADIUS in the world; more with spaces.\n"
           "Degrees and radius make shadows soft.");
   }
+  changed |= text("floor", "shadow, or a colour", look.floor);
   parameters(ParameterGroup::light, settings);
   return changed;
 }

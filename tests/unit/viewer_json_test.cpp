@@ -168,6 +168,7 @@ TEST(ViewerJson, looks_come_back) {
   look.colour_by = "charge:magma:0,1:log";
   look.nan_colour = "#112233";
   look.crease = "chain";
+  look.floor = "#ff8800";
   look.rows = {{"chain \"A\"", "colour", "0.1,0.2,0.3"}, {"", "hide", ""}};
   const Result<ViewerLook> back = viewer_look_from_json(viewer_look_to_json(look));
   ASSERT_TRUE(back) << back.error().to_string();

@@ -13,6 +13,7 @@
 #include "bihive/render/tracer.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/element_colours.h"
+#include "bihive/scene/floor.h"
 #include "bihive/scene/focus.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/load_scene.h"
@@ -388,6 +389,45 @@ TEST(ViewerLook, every_effect_is_the_programs) {
     ASSERT_TRUE(viewer.set(first)) << one.name;
   }
   EXPECT_EQ(shown(viewer), plain) << "all of it goes again";
+}
+
+TEST(ViewerLook, a_floor_lies_below_what_is_left) {
+  Viewer viewer;
+  viewer.resize(kWidth, kHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  const std::uint64_t plain = shown(viewer);
+  const Camera camera = viewer.settings().camera;
+  for (const char* const floor : {"shadow", "#3366cc"}) {
+    ViewerLook look;
+    look.floor = floor;
+    ASSERT_TRUE(viewer.set_look(look));
+    const std::uint64_t with_floor = shown(viewer);
+    EXPECT_NE(with_floor, plain) << floor;
+    EXPECT_EQ(with_floor, demo_with(camera,
+                                    [&](Scene& scene, RenderSettings&) {
+                                      const std::optional<Vec3d> colour =
+                                          std::string(floor) == kFloorOfShadows
+                                              ? std::nullopt
+                                              : std::optional(*colour_from_text(floor, Transfer::srgb));
+                                      scene.plane = floor_in(plane_below(scene, {0, 1, 0}), colour, scene);
+                                    }))
+        << floor;
+  }
+  ViewerLook bad;
+  bad.floor = "shadows";
+  const auto refused = viewer.set_look(bad);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("floor: "));
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("or \"shadow\""));
+  ASSERT_TRUE(viewer.set_look({}));
+  EXPECT_EQ(shown(viewer), plain);
+
+  // Beside a plane of the scene's own.
+  ASSERT_TRUE(viewer.load_built_in("scenario1"));
+  bad.floor = kFloorOfShadows;
+  const auto twice = viewer.set_look(bad);
+  ASSERT_FALSE(twice);
+  EXPECT_THAT(twice.error().to_string(), HasSubstr("plane of its own"));
 }
 
 TEST(ViewerLook, lights_colours_and_creases_of_all_spheres) {

@@ -37,6 +37,7 @@ const groups = {
   lines_group: [
     [(page) => set_value(page, '#outline_px', 3), ['--outline', '3']],
     [(page) => page.selectOption('#crease', 'chain'), ['--crease', 'chain']],
+    [(page) => page.selectOption('#floor', 'shadow'), ['--floor', 'shadow']],
   ],
   colours_group: [
     [(page) => page.selectOption('#colour_by', 'b_factor'), ['--colour-by', 'b_factor']],

@@ -1,4 +1,4 @@
-// The panel's appearance controls for all spheres: lights, lines between groups, and colours by an attribute.
+// The panel's appearance controls for all spheres: lights, floor, lines between groups, and colours by an attribute.
 import { element } from './dom';
 import type { ColouredBy, Facts, Look } from './protocol';
 import { colour_maps } from './settings';
@@ -44,6 +44,8 @@ export class ColourControls {
   private readonly lights = element<HTMLSelectElement>('lights');
   private readonly own_lights = element<HTMLInputElement>('own_lights');
   private readonly crease = element<HTMLSelectElement>('crease');
+  private readonly floor = element<HTMLSelectElement>('floor');
+  private readonly floor_colour = element<HTMLInputElement>('floor_colour');
   private readonly attribute = element<HTMLSelectElement>('colour_by');
   private readonly map = element<HTMLSelectElement>('colour_map');
   private readonly min = element<HTMLInputElement>('colour_min');
@@ -55,6 +57,8 @@ export class ColourControls {
     this.lights.addEventListener('change', () => this.change_lights());
     this.own_lights.addEventListener('change', () => this.change_lights());
     this.crease.addEventListener('change', () => change({ crease: this.crease.value }));
+    for (const input of [this.floor, this.floor_colour])
+      input.addEventListener('change', () => change({ floor: this.floor.value === 'colour' ? this.floor_colour.value : this.floor.value }));
     this.attribute.addEventListener('change', () => {
       // Another attribute has another range.
       this.min.value = this.max.value = '';
@@ -103,6 +107,9 @@ export class ColourControls {
       if (own && !waits) this.own_lights.value = look.lights.join(' ');
     }
     choose(this.crease, look.crease);
+    this.floor.value = ['', 'shadow'].includes(look.floor) ? look.floor : 'colour';
+    this.floor_colour.hidden = this.floor.value !== 'colour';
+    if (/^#[0-9a-f]{6}$/i.test(look.floor)) this.floor_colour.value = look.floor;
     const parts = parts_of(look.colour_by);
     choose(this.attribute, parts.attribute);
     choose(this.map, parts.map);

@@ -46,6 +46,7 @@ export interface Look {
   colour_by: string;
   nan_colour: string;
   crease: string;
+  floor: string;
   rows: LookRow[];
 }
 

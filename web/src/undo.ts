@@ -14,6 +14,7 @@ const words: Record<string, string> = {
   colour_by: 'colours',
   nan_colour: 'colour of unknown numbers',
   crease: 'lines between',
+  floor: 'floor',
   rows: 'looks of selections',
 };
 

@@ -39,6 +39,7 @@ ViewerLook look_of(const ViewOptions& options) {
   look.background = options.background.value_or("");
   look.lights = options.style.light_words;
   look.nan_colour = options.looks.nan_colour;
+  look.floor = options.floor.value_or("");
   look.rows = options.looks.rows;
   return look;
 }

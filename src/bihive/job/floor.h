@@ -8,9 +8,6 @@
 
 namespace bihive {
 
-/// The value of `floor` for one that is seen by its shadows alone.
-inline const std::string kFloorOfShadows = "shadow";
-
 /// Gives the scene the plane that request.floor asks for: that of the film, or one that touches the lowest sphere, at
 /// right angles to what is up in the world: `up`, else of a scene's own camera its up, else y. Fails with kBadUsage if
 /// the scene has a plane of its own, or if nothing in the picture could throw a shadow.

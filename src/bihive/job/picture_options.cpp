@@ -8,11 +8,11 @@
 #include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/job/failure.h"
-#include "bihive/job/floor.h"
 #include "bihive/job/report_text.h"
 #include "bihive/job/selection.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/element_colours.h"
+#include "bihive/scene/floor.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/style.h"
@@ -183,7 +183,6 @@ void add_picture(Rows& rows) {
                             .help = "A plane below the spheres: in a colour, or seen by the shadows on it alone",
                             .theme = OptionTheme::style,
                             .ranks = kWhole,
-                            .in_window = false,
                             .take = into(&PictureRequest::floor,
                                          [](const std::string& text) -> Result<std::string> {
                                            if (text == kFloorOfShadows) return text;

@@ -22,7 +22,7 @@ OpticalDepth optical_depth(double share);
 /// The share that gets through, 2^(-depth / 2^22), to 1e-14 relatively; 1 of depth 0.
 double transmittance(OpticalDepth depth);
 
-/// Of two bodies, one behind the other, neither deeper than kDeepest.
+/// Of two bodies, one after the other, neither deeper than kDeepest.
 inline OpticalDepth sum_of_depths(OpticalDepth a, OpticalDepth b) {
   return std::min(a + b, kDeepest);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct FrameMaker::Choices {
   ViewerLook look;
   ViewerSettings settings;
   std::vector<ColourBy> ranges;  ///< as Scene::coloured_by
+  std::optional<Plane> floor;    ///< where the look has one
   std::uint64_t version;         ///< of the viewer's choices
 };
 

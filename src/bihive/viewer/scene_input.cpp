@@ -5,6 +5,7 @@
 #include "bihive/image/colour_text.h"
 #include "bihive/io/packed.h"
 #include "bihive/scene/element_colours.h"
+#include "bihive/scene/floor.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/select/attribute_names.h"
@@ -24,19 +25,39 @@ Status recolour(Scene& scene, const std::string& scheme) {
   return recolour_elements(scene, *colours);
 }
 
+// As the command line takes it: numbers are light, texts what the screen shows. `or_else`: for the hint.
+Result<Vec3d> linear_colour(const char* of_what, const std::string& text, const Scene& scene,
+                            const std::string& or_else) {
+  const Result<ColourChoice> choice = colour_choice_from_text(text);
+  if (!choice)
+    return look_error(std::string(of_what) + ": " + choice.error().message,
+                      choice.error().hint + (choice.error().hint.empty() ? "" : " ") + or_else);
+  if (const auto* light = std::get_if<Vec3d>(&*choice)) return *light;
+  return *colour_from_text(text, scene.picture.transfer);
+}
+
 Status set_background(Scene& scene, const std::string& background) {
   scene.picture.transparent = background == kNoBackground;
   if (scene.picture.transparent) return Done{};
-  const Result<ColourChoice> choice = colour_choice_from_text(background);
-  if (!choice)
-    return look_error(
-        "background: " + choice.error().message,
-        choice.error().hint + (choice.error().hint.empty() ? "" : " ") + "or \"none\" for a transparent one");
-  // As --background does: numbers are light, texts what the screen shows.
-  if (const auto* light = std::get_if<Vec3d>(&*choice))
-    scene.background = *light;
-  else
-    scene.background = *colour_from_text(background, scene.picture.transfer);
+  const Result<Vec3d> colour = linear_colour("background", background, scene, "or \"none\" for a transparent one");
+  if (!colour) return colour.error();
+  scene.background = *colour;
+  return Done{};
+}
+
+// `kept`: the plane that it had in another frame.
+Status lay_floor(LoadedScene& loaded, const std::string& text, const std::optional<Plane>& kept) {
+  Scene& scene = loaded.scene;
+  if (scene.plane) return look_error("floor: the scene has a plane of its own", "leave the floor out");
+  std::optional<Vec3d> colour;
+  if (text != kFloorOfShadows) {
+    const Result<Vec3d> given =
+        linear_colour("floor", text, scene, "or \"" + kFloorOfShadows + "\" for its shadows alone");
+    if (!given) return given.error();
+    colour = *given;
+  }
+  const Vec3d up = loaded.has_camera ? normalized(scene.camera.up) : Vec3d{0, 1, 0};
+  scene.plane = floor_in(kept ? *kept : plane_below(scene, up), colour, scene);
   return Done{};
 }
 
@@ -220,11 +241,11 @@ Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, cons
 }
 
 Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row,
-                                                 const std::vector<ColourBy>* ranges) const {
+                                                 const KeptOfFrame& kept) const {
   if (failed_row != nullptr) *failed_row = look.rows.size();
   if (!look.style.empty())
     if (const Result<Style> known = style_named(look.style); !known) return known.error();
-  Result<LoadedScene> loaded = in_style(look.style, copies, ranges);
+  Result<LoadedScene> loaded = in_style(look.style, copies, kept.ranges);
   if (!loaded) return loaded.error();
   Looked looked{std::move(*loaded), {}};
   Scene& scene = looked.loaded.scene;
@@ -233,9 +254,11 @@ Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const C
   if (Status status = light_up(looked.loaded, look.lights); !status) return status.error();
   if (!look.element_colours.empty())
     if (Status status = recolour(scene, look.element_colours); !status) return status.error();
-  Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row, ranges);
+  Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row, kept.ranges);
   if (!counts) return counts.error();
   looked.counts = std::move(*counts);
+  if (!look.floor.empty())
+    if (Status status = lay_floor(looked.loaded, look.floor, kept.floor); !status) return status.error();
   return looked;
 }
 

@@ -16,6 +16,13 @@
 
 namespace bihive {
 
+/// What a frame keeps of another one: the ranges of colours by the same numbers, as Scene::coloured_by, and where the
+/// look's floor lies.
+struct KeptOfFrame {
+  const std::vector<ColourBy>* ranges = nullptr;
+  std::optional<Plane> floor{};
+};
+
 class SceneInput {
  public:
   using Copies = std::optional<std::array<std::int32_t, 3>>;
@@ -39,10 +46,9 @@ class SceneInput {
   /// As `bihive render` with these options makes it. Errors: no such style, colour or action, a style for a scene that
   /// takes none, a selection's (column as in select_spheres()), or that every sphere is hidden. `failed_row` (if given)
   /// is then the faulty row; look.rows.size() if none is. `copies`: along the vectors of the cell; unset: those of the
-  /// input. Error too if there is no cell.
-  /// `ranges`: as Scene::coloured_by of another frame, whose ranges colours by the same numbers keep.
+  /// input. Error too if there is no cell, or if the scene has a plane beside which the look wants a floor.
   Result<Looked> looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row = nullptr,
-                           const std::vector<ColourBy>* ranges = nullptr) const;
+                           const KeptOfFrame& kept = {}) const;
 
  private:
   // spheres: a style determines the appearance. document: a scene file, read again for each style. own: takes no style.

@@ -101,7 +101,8 @@ class Viewer::Implementation {
   std::shared_ptr<const FrameMaker> frame_maker() {
     if (!input_ || !input_->facts().is_file_of_spheres) return nullptr;
     if (maker_ && maker_version_ == version_) return maker_;
-    FrameMaker::Choices choices{input_->facts().name, look_, settings_, shown_->scene.coloured_by, version_};
+    FrameMaker::Choices choices{input_->facts().name, look_, settings_, shown_->scene.coloured_by, {}, version_};
+    if (!look_.floor.empty()) choices.floor = shown_->scene.plane->plane;
     maker_ = std::make_shared<const FrameMaker>(std::make_shared<const FrameMaker::Choices>(std::move(choices)));
     maker_version_ = version_;
     return maker_;

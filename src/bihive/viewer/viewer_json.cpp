@@ -291,6 +291,7 @@ std::string viewer_look_to_json(const ViewerLook& look) {
   document["colour_by"] = look.colour_by;
   document["nan_colour"] = look.nan_colour;
   document["crease"] = look.crease;
+  document["floor"] = look.floor;
   document["rows"] = ordered_json::array();
   for (const LookRow& row : look.rows)
     document["rows"].push_back({{"select", row.select}, {"action", row.action}, {"value", row.value}});
@@ -310,6 +311,7 @@ Result<ViewerLook> viewer_look_from_json(std::string_view text, const ViewerLook
   members.take("colour_by", look.colour_by);
   members.take("nan_colour", look.nan_colour);
   members.take("crease", look.crease);
+  members.take("floor", look.floor);
   take_rows(members, look.rows, error);
   members.refuse_others();
   if (!error.message.empty()) return error;

@@ -26,7 +26,7 @@ Result<ViewerSettings> settings_from_json(std::string_view json, const ViewerSet
 
 /// One line:
 /// {"style":"studio","element_colours":"","background":"none","lights":["cloudy"],"colour_by":"b_factor:magma",
-/// "nan_colour":"","crease":"chain","rows":[{"select":"chain A","action":"colour","value":"red"}]}.
+/// "nan_colour":"","crease":"chain","floor":"shadow","rows":[{"select":"chain A","action":"colour","value":"red"}]}.
 std::string viewer_look_to_json(const ViewerLook& look);
 
 /// Missing members come from `base`. Errors as above. Whether the scene has such spheres and attributes is not checked

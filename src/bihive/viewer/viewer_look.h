@@ -1,5 +1,5 @@
 // The user's appearance of the spheres: the equivalent of --style, --element-colours, --background, --light,
-// --colour-by, --nan-colour, --crease and --select with the options after it of `bihive render`.
+// --colour-by, --nan-colour, --crease, --floor and --select with the options after it of `bihive render`.
 #pragma once
 
 #include <string>
@@ -19,11 +19,12 @@ struct ViewerLook {
   std::string colour_by{};   ///< of all spheres, as colour_by_from_text() takes it; empty: the style's or the scene's
   std::string nan_colour{};  ///< a colour, for colour_by and for all rows; empty: grey
   std::string crease{};      ///< an attribute: lines between spheres that differ in it; empty: the style's
+  std::string floor{};       ///< a colour, or kFloorOfShadows (scene/floor.h); empty: none but the scene's own
 
   friend bool operator==(const ViewerLook& a, const ViewerLook& b) {
     return a.style == b.style && a.element_colours == b.element_colours && a.background == b.background &&
            a.lights == b.lights && a.colour_by == b.colour_by && a.nan_colour == b.nan_colour && a.crease == b.crease &&
-           a.rows == b.rows;
+           a.floor == b.floor && a.rows == b.rows;
   }
   friend bool operator!=(const ViewerLook& a, const ViewerLook& b) { return !(a == b); }
 };

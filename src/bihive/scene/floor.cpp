@@ -1,0 +1,34 @@
+#include "bihive/scene/floor.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bihive/scene/clips.h"
+
+namespace bihive {
+
+Plane plane_below(const Scene& scene, Vec3d up) {
+  double lowest = std::numeric_limits<double>::infinity();
+  const RemainingSpheres remaining(scene);
+  const SphereSet& spheres = remaining.set();
+  for (std::int64_t id = 0; id < spheres.total_size(); ++id)
+    lowest = std::min(lowest, dot(up, spheres.centre(id)) - spheres.radius(id));
+  return {(spheres.empty() ? 0 : lowest) * up, up};
+}
+
+ScenePlane floor_in(const Plane& plane, const std::optional<Vec3d>& colour, const Scene& scene) {
+  ScenePlane floor;
+  floor.plane = plane;
+  floor.material = scene.materials.front();
+  floor.material.transmissive = 0;
+  floor.shadows_only = !colour;
+  if (colour) {
+    floor.material.colour = *colour;
+    return floor;
+  }
+  const bool is_lit = floor.material.diffuse > 0 || floor.material.ambient > 0;
+  if (!is_lit) floor.material = matte_material();
+  return floor;
+}
+
+}  // namespace bihive
