@@ -132,7 +132,7 @@ class OneFile(WebTest):
         self.assertIn("--port", self.fail_usage("web", "a.xyz", "--html", "out.html", "--port", "0"))
         self.assertIn("name a file", self.fail_usage("web", "-", "--html", "out.html"))
         self.write("scene.json", '{"bihive_scene": 1, "spheres": {"file": "a.xyz"}}')
-        self.assertIn("a.xyz beside it", self.fail_usage("web", "scene.json", "--html", "out.html", env=self.environment))
+        self.assertIn("a.xyz beside it", self.fail_with(2, "web", "scene.json", "--html", "out.html", env=self.environment))
         self.assertFalse(os.path.exists(self.path("out.html")))
 
 

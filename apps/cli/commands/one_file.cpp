@@ -31,8 +31,7 @@ Result<std::string> one_file_with(const std::string& page, const OneFileData& da
   const std::string places = place("page_state") + "\n" + place("page_file") + "\n" + trajectory;
   const std::size_t at = page.find(places);
   if (at == std::string::npos) return Error{"this page is of another version", "", 0, 0, "run make web"};
-  const std::string file =
-      data.file_name.empty() ? place("page_file") : filled("page_file", data.file_name, data.file);
+  const std::string file = data.file_name.empty() ? place("page_file") : filled("page_file", data.file_name, data.file);
   return page.substr(0, at) + filled("page_state", "", data.state) + "\n" + file + "\n" + trajectory +
          page.substr(at + places.size());
 }

@@ -14,8 +14,8 @@ struct OneFileData {
   std::string file;       ///< its bytes
 };
 
-/// The page with the data in its places, as "Save as page" fills them (web/src/one_file.ts). Errors: `page` is of another
-/// version.
+/// The page with the data in its places, as "Save as page" fills them (web/src/one_file.ts). Errors: `page` is of
+/// another version.
 Result<std::string> one_file_with(const std::string& page, const OneFileData& data);
 
 }  // namespace bihive::cli

@@ -86,13 +86,15 @@ void write_one_file(const WebOptions& options) {
   const std::string folder = find_page();
   const Result<std::string> page = read_file(folder + "/one_file.html");
   if (folder.empty() || !page)
-    throw Failure{kEnvironment,
-                  {"this bihive was built without the page that is one file", "", 0, 0, "run make web where it was built"}};
+    throw Failure{
+        kEnvironment,
+        {"this bihive was built without the page that is one file", "", 0, 0, "run make web where it was built"}};
   const Result<std::string> filled = one_file_with(*page, data);
   if (!filled) throw Failure{kEnvironment, filled.error()};
   if (const Status status = write_file(output_path(options.html), *filled); !status) fail(status.error());
-  print_report(fmt::format("{}: {} bytes; it opens without a network\n", escaped(options.html), grouped(filled->size())),
-               {options.html});
+  print_report(
+      fmt::format("{}: {} bytes; it opens without a network\n", escaped(options.html), grouped(filled->size())),
+      {options.html});
 }
 
 // Everything that can be fetched: the page, the file, and the page's first input (start.json).
