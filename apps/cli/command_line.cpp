@@ -467,6 +467,12 @@ void add_web(CLI::App& app, WebOptions& options, Request& request) {
   command.add_flag_callback(
       "--no-browser", [&options] { options.browser = false; }, "Open no browser");
   command.add_flag("--json", options.json, "Print the addresses as one JSON object in a line");
+  CLI::Option* const html = command
+                                .add_option("--html", options.html,
+                                            "Serve nothing: write the page and its input into one file,\n"
+                                            "which opens without a network, on a phone too")
+                                ->type_name("FILE");
+  for (const char* name : {"--port", "--bind", "--no-browser", "--json"}) html->excludes(command.get_option(name));
   begin_theme(command, "What the page shows first");
   // The page's scenarios have one seed.
   add_options_to_show(command, options.shown, {"seed"});

@@ -23,10 +23,11 @@ OUTPUTS = {
     "convert": [("--output", ".xyz"), ("--output", ".csv"), ("--output", ".npy"), ("--output", ".ply"), ("--output", ".json")],
     "scene-save": [("SCENE", ".json")],
     "thesis": [("--out", "report.html"), ("--out", "results.json")],
+    "web": [("--html", ".html")],
 }
-NO_OUTPUT = {"stats", "info", "select", "web", "scene", "styles"}
-# `bihive view` takes the names of looks and colours alone; `bihive thesis --page` is an output, and the only one.
-REFUSED = {("view", "--style"), ("view", "--element-colours"), ("thesis", "--page")}
+NO_OUTPUT = {"stats", "info", "select", "scene", "styles"}
+# `bihive view` and `bihive web` take the names of looks and colours alone; `bihive thesis --page` is an output, and the only one.
+REFUSED = {("view", "--style"), ("view", "--element-colours"), ("web", "--style"), ("web", "--element-colours"), ("thesis", "--page")}
 
 
 class RequestFilesTest(ProgramTest):

@@ -1,9 +1,11 @@
 """`bihive web`: its answers, its refusals, and its end. A small page takes the place of the real one."""
 
+import base64
 import gzip
 import http.client
 import json
 import os
+import re
 import signal
 import socket
 import stat
@@ -93,6 +95,45 @@ class WebTest(ProgramTest):
         answer = self.ask_raw(b"GET " + target + b" HTTP/1.1\r\nHost: " + host.encode() + b"\r\nConnection: close\r\n\r\n")
         self.assertTrue(answer.startswith(b"HTTP/1.1 "), answer[:100])
         return int(answer.split()[1]), answer
+
+
+PLACES = "".join(f'<script id="page_{name}" type="text/plain"></script>\n' for name in ["state", "file", "trajectory"])
+
+
+class OneFile(WebTest):
+    def made(self, *words):
+        return self.run_bihive("web", *words, "--html", "out.html", env=self.environment)
+
+    def test_the_page_and_its_input_are_written_and_nothing_is_served(self):
+        self.write("page/one_file.html", f"<p>{PLACES}</p>")
+        content = "2\n\nC 0 0 0\nC 2 0 0\n"
+        self.write('a"b.xyz', content)
+        done = self.made('a"b.xyz', "--eye", "1,2,9", "--style", "studio")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        state, file, rest = re.fullmatch(
+            r'<p><script id="page_state" type="text/plain" data-name="" data-packing="gzip">(.*)</script>\n'
+            r'<script id="page_file" type="text/plain" data-name="a&quot;b.xyz">(.*)</script>\n(.*)\n</p>',
+            self.read("out.html").decode("ascii"),
+        ).groups()
+        self.assertEqual(base64.b64decode(file).decode(), content)
+        self.assertEqual(rest, PLACES.split("\n")[2])
+        state = json.loads(gzip.decompress(base64.b64decode(state)))
+        self.assertEqual(state["source"], {"file": 'a"b.xyz'})
+        self.assertEqual(state["settings"]["camera"]["eye"], [1, 2, 9])
+        self.assertEqual(state["look"]["style"], "studio")
+
+    def test_refusals(self):
+        self.write("a.xyz", "1\n\nC 0 0 0\n")
+        self.assertIn("without the page that is one file", self.fail_with(3, "web", "a.xyz", "--html", "out.html", env=self.environment))
+        self.write("page/one_file.html", "<p></p>")
+        self.assertIn("another version", self.fail_with(3, "web", "a.xyz", "--html", "out.html", env=self.environment))
+        self.write("bad.xyz", "2\n\nC 0 0 0\n")
+        self.assertIn("bad.xyz", self.fail_input("web", "bad.xyz", "--html", "out.html", env=self.environment))
+        self.assertIn("--port", self.fail_usage("web", "a.xyz", "--html", "out.html", "--port", "0"))
+        self.assertIn("name a file", self.fail_usage("web", "-", "--html", "out.html"))
+        self.write("scene.json", '{"bihive_scene": 1, "spheres": {"file": "a.xyz"}}')
+        self.assertIn("a.xyz beside it", self.fail_with(2, "web", "scene.json", "--html", "out.html", env=self.environment))
+        self.assertFalse(os.path.exists(self.path("out.html")))
 
 
 class Serves(WebTest):

@@ -1,10 +1,13 @@
 // The worker from the page's side: requests go out, answers come in by type.
+import { is_one_file, worker_inside } from './one_file';
 import type { Answer, Request } from './protocol';
 
 type Handlers = { [Type in Answer['type']]: (answer: Extract<Answer, { type: Type }>) => void };
 
 export class Engine {
-  private readonly worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'bihive' });
+  private readonly worker = is_one_file
+    ? worker_inside()
+    : new Worker(new URL('./worker.ts', import.meta.url), { type: 'module', name: 'bihive' });
   private next_id = 1;
 
   constructor(handlers: Handlers, on_broken: (message: string) => void) {

@@ -3,6 +3,7 @@
 import { element } from './dom';
 import type { FigureAnswer, FigureRequest, NamedBlob } from './figure_protocol';
 import { fail } from './messages';
+import { is_one_file } from './one_file';
 
 const most_at_once = 3;
 
@@ -75,6 +76,8 @@ export class Figures {
   open(files: File[], beside: File[]): void {
     for (const { name } of files.filter(({ name }) => !is_png_name(name)))
       fail(`${name} is a ${is_film_name(name) ? 'film' : 'picture'} that this page does not compare: bihive verify ${name} does`);
+    if (is_one_file && files.some(({ name }) => is_png_name(name)))
+      return fail('A page that is one file compares no pictures: bihive web does, and bihive verify');
     const entries = files.filter(({ name }) => is_png_name(name)).map((file) => this.entry(file));
     // The oldest verdicts make room.
     const judged = [...element('figures').querySelectorAll<HTMLElement>('[data-state=holds] button, [data-state=fails] button')];

@@ -13,6 +13,7 @@ import { ask_for, type Ask } from './ask';
 import { has_host, is_embedded, start_embedded } from './embedded';
 import { Host } from './host';
 import { document_of, has_state, link_of, reading_of, state_from, state_of, type State } from './link';
+import { data_inside, is_one_file, packed_module, page_with } from './one_file';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
 import { start_panel } from './panel';
@@ -25,6 +26,7 @@ import {
   type OwnFiles, type Wanted,
 } from './sources';
 import { describe_device } from './device';
+import { save } from './download';
 import { show_statistics } from './statistics';
 import { load_style_pictures } from './style_tiles';
 import { start_theme } from './theme';
@@ -73,7 +75,7 @@ const engine = new Engine(
       gpu = found;
       show_gpu();
       element('about').textContent =
-        `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. No request leaves this page's server.`;
+        `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. ${is_one_file ? 'This page makes no requests' : "No request leaves this page's server"}.`;
     },
     loaded: (answer) => {
       if (answer.id === loading) {
@@ -240,7 +242,7 @@ const thesis = new ThesisDialog({
   goes_on_from: (result) => result['engine'] === settings?.engine && result['version'] === program_version,
 });
 
-const keeper = is_embedded ? null : new Keeper();
+const keeper = is_embedded || is_one_file ? null : new Keeper();
 const undo = new Undo({ restore, changed: (past) => keeper?.keep(past) });
 
 let program_version = '';
@@ -458,6 +460,30 @@ async function copy_link(): Promise<void> {
   }
 }
 
+// All that is shown as one file, which opens without a server.
+async function save_page(): Promise<void> {
+  if (!settings || !look) return;
+  try {
+    const file = await page_with({ source, settings, look }, shown_files);
+    save(file, `${(facts?.name ?? 'page').replace(/.*\//, '').replace(/\.[^.]*$/, '')}.html`);
+    note(`The page has ${(file.size / 1e6).toFixed(1)} MB. It opens by itself, without a network, on a phone too.`);
+  } catch (error) {
+    fail((error as Error).message);
+  }
+}
+
+// What this page, which is one file, holds.
+async function open_inside(): Promise<void> {
+  try {
+    const inside = await data_inside();
+    const state = inside?.state ?? { source: { built_in: 'demo' }, settings: null, look: null };
+    if (inside?.own) await open(wanted_files(inside.own, state.source.reading), inside.own.file.name, state, inside.own);
+    else await open_source(state.source, state);
+  } catch (error) {
+    fail((error as Error).message);
+  }
+}
+
 // The FILE of `bihive web FILE`, as the text of a state; empty: there is none, or the address has a state.
 async function started(): Promise<string> {
   if (has_state(location.hash)) return '';
@@ -497,9 +523,10 @@ async function start(): Promise<void> {
   const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
   busy('Starting');
   const wasm = await host.begin(threads);
+  const packed = packed_module();
   engine.send(
-    { type: 'start', threads, base: document.baseURI, embedded: is_embedded, wasm, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
-    [...canvases],
+    { type: 'start', threads, base: document.baseURI, embedded: is_embedded, wasm, packed, gpu_canvas: canvases[0], cpu_canvas: canvases[1] },
+    [...canvases, ...(packed ? [packed.buffer] : [])],
   );
   watch_size();
 
@@ -521,6 +548,9 @@ async function start(): Promise<void> {
   listen_for_reading(read_again);
   listen_for_launches((files) => void take_files(files));
   element('copy_link').addEventListener('click', () => void copy_link());
+  element('save_page').addEventListener('click', () => void save_page());
+  // A link to a file of one's own is nobody else's, and there is no server.
+  if (is_one_file) for (const id of ['copy_link', 'link_help', 'url_form']) element(id).hidden = true;
   if (shares_links) element('copy_link').textContent = 'Share link';
 
   const open_state = async (start: string) => {
@@ -570,6 +600,7 @@ async function start(): Promise<void> {
   addEventListener('hashchange', () => {
     if (has_state(location.hash)) void open_state('');
   });
+  if (is_one_file) return void (await open_inside());
   const text = await started();
   const kept = (await keeper?.open(text)) ?? null;
   await (kept ? open_kept(kept) : open_state(text));

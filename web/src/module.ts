@@ -109,9 +109,16 @@ const instantiate =
     return {};
   };
 
+interface Script<M> {
+  default(options?: { instantiateWasm: Instantiate }): Promise<M>;
+}
+
+// The page that is one file has the module's script inside (scripts/build_one_file).
+const inside = <M>() => (globalThis as { bihive_module_script?: Script<M> }).bihive_module_script;
+
 async function load<M>(name: string, base: string, threads: boolean, wasm: WebAssembly.Module | null = null): Promise<M> {
-  const address = new URL(`wasm/${threads ? 'threads' : 'single'}/${name}.js`, base).href;
-  const { default: create } = (await import(/* @vite-ignore */ address)) as { default: (options?: { instantiateWasm: Instantiate }) => Promise<M> };
+  const fetched = () => import(/* @vite-ignore */ new URL(`wasm/${threads ? 'threads' : 'single'}/${name}.js`, base).href) as Promise<Script<M>>;
+  const { default: create } = inside<M>() ?? (await fetched());
   return wasm ? create({ instantiateWasm: instantiate(wasm) }) : create();
 }
 

@@ -160,9 +160,9 @@ export interface Measure {
   nearest_images: boolean; // of a periodic cell
 }
 
-/** Messages to the worker. `id` is returned with the answer. */
+/** Messages to the worker. `id` is returned with the answer. `packed`: the module, by LZMA. */
 export type Request =
-  | { type: 'start'; threads: boolean; base: string; embedded: boolean; wasm: WebAssembly.Module | null; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
+  | { type: 'start'; threads: boolean; base: string; embedded: boolean; wasm: WebAssembly.Module | null; packed: Uint8Array<ArrayBuffer> | null; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
   | { type: 'load'; id: number; source: Source; files: Files | null; settings: Changes | null; look: Partial<Look> | null }
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }

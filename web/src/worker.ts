@@ -1,6 +1,7 @@
 // The worker: the C++ module, the frame loop, and the answers to the page.
 import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
 import { GlCanvas } from './gl_canvas';
+import { unpacked_lzma } from './lzma';
 import { PictureRun } from './picture_run';
 import type {
   Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Measure, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
@@ -440,7 +441,8 @@ async function show_frames(seconds: number, device: string): Promise<void> {
 }
 
 async function start(request: Request & { type: 'start' }): Promise<void> {
-  module = await load_module(request.base, request.threads, request.wasm);
+  const wasm = request.packed ? await WebAssembly.compile(unpacked_lzma(request.packed)) : request.wasm;
+  module = await load_module(request.base, request.threads, wasm);
   page = new module.Page();
   if (request.embedded) page.let_page_through();
   user_files = new UserFiles(module);

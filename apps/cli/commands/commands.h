@@ -218,6 +218,7 @@ struct WebOptions {
   std::string bind = "127.0.0.1";    ///< numeric, in its usual spelling
   bool browser = true;
   bool json = false;
+  std::string html;  ///< a file for the page with the input inside; then nothing is served
 };
 void run_web(const WebOptions& options);
 

@@ -1,4 +1,4 @@
-// bihive web: serves the page that shows spheres in a browser.
+// bihive web: serves the page that shows spheres in a browser, or writes it as one file.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -7,10 +7,13 @@
 #include <numeric>
 
 #include "bihive/base/json_text.h"
+#include "bihive/base/readable.h"
+#include "bihive/base/write_file.h"
 #include "bihive/io/reading_settings.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "commands/commands.h"
+#include "commands/one_file.h"
 #include "commands/shown_state.h"
 #include "server/addresses.h"
 #include "server/browser.h"
@@ -50,13 +53,48 @@ ordered_json reading_of(const InputOptions& input) {
 
 // The first state of the page, where the user asks for one; else the page's own.
 void put_state(const ViewOptions& options, ordered_json& start) {
-  if (options.given.empty()) return;
   if (options.input.seed)
     fail_usage("the page's scenarios have the seed 1", "write the scene into a file by bihive scene");
   if (options.input.count) start["source"]["count"] = *options.input.count;
   if (const ordered_json reading = reading_of(options.input); !reading.empty()) start["source"]["reading"] = reading;
   start["settings"] = settings_to_show(options, /*with_side=*/true);
   start["look"] = look_to_show(options);
+}
+
+// The page as one file, with the input inside.
+void write_one_file(const WebOptions& options) {
+  const InputOptions& input = options.shown.input;
+  if (input.input == kStandardStream)
+    fail_usage("the page keeps the name of its file, which the standard input has not", "name a file");
+  check_outputs({options.html}, {input.input}, /*are_text=*/true);
+  OneFileData data;
+  ordered_json start;
+  if (is_built_in_scene(input.input)) {
+    start["source"]["built_in"] = input.input;
+  } else {
+    // What cannot be read is told here, not to those who open the page.
+    if (const Input loaded = load_input(input, LooksOfFile::keep); !loaded.files.empty())
+      fail_usage(input.input + " needs " + loaded.files.front() + " beside it, and the page holds one file",
+                 "name the file of the spheres, with options for the rest");
+    data.file = read_input(input.input);
+    data.file_name = std::filesystem::path(input.input).filename().string();
+    start["source"]["file"] = data.file_name;
+  }
+  put_state(options.shown, start);
+  data.state = start.dump();
+
+  const std::string folder = find_page();
+  const Result<std::string> page = read_file(folder + "/one_file.html");
+  if (folder.empty() || !page)
+    throw Failure{
+        kEnvironment,
+        {"this bihive was built without the page that is one file", "", 0, 0, "run make web where it was built"}};
+  const Result<std::string> filled = one_file_with(*page, data);
+  if (!filled) throw Failure{kEnvironment, filled.error()};
+  if (const Status status = write_file(output_path(options.html), *filled); !status) fail(status.error());
+  print_report(
+      fmt::format("{}: {} bytes; it opens without a network\n", escaped(options.html), grouped(filled->size())),
+      {options.html});
 }
 
 // Everything that can be fetched: the page, the file, and the page's first input (start.json).
@@ -76,7 +114,7 @@ Site site_of(const WebOptions& options) {
     site.file_url = "/file/" + name;
     start["source"]["url"] = "file/" + url_escaped(name);
   }
-  put_state(options.shown, start);
+  if (!options.shown.given.empty()) put_state(options.shown, start);
   site.page = load_page();
   site.page["/start.json"] = make_page_file("start.json", start.dump() + "\n");
 
@@ -131,10 +169,11 @@ void say_where(const WebOptions& options, const std::vector<std::string>& urls, 
 void run_web(const WebOptions& asked) {
   WebOptions options = asked;
   take_request_to_show(options.shown);
-  if (!options.shown.given.empty()) {
+  if (!options.shown.given.empty() || !options.html.empty()) {
     if (options.shown.input.input.empty()) options.shown.input.input = "demo";
     check_shown(options.shown);
   }
+  if (!options.html.empty()) return write_one_file(options);
   const Site site = site_of(options);
   HttpServer server([&site](const Question& question) { return answer(site, question); });
   const int port = value_or_fail(server.listen(options.bind, ports_to_try(options.port)));

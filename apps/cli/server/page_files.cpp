@@ -52,8 +52,16 @@ const TypeOfEnding& type_of(const std::string& name) {
   return kOtherType;
 }
 
-// The bytes as a gzip file; empty if zlib has no memory.
-std::string packed(const std::string& bytes) {
+// FNV-1a tells versions of a file apart.
+std::uint64_t hash_of(const std::string& bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
+}  // namespace
+
+std::string packed_by_gzip(const std::string& bytes) {
   constexpr int kGzip = 15 + 16;
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, 9, Z_DEFAULT_STRATEGY) != Z_OK) return "";
@@ -68,22 +76,13 @@ std::string packed(const std::string& bytes) {
   return code == Z_STREAM_END ? out : "";
 }
 
-// FNV-1a tells versions of a file apart.
-std::uint64_t hash_of(const std::string& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
-}
-
-}  // namespace
-
 PageFile make_page_file(const std::string& name, std::string bytes) {
   const TypeOfEnding& type = type_of(name);
   PageFile file;
   file.type = type.type;
   file.tag = fmt::format("{:016x}-{:x}", hash_of(bytes), bytes.size());
   if (type.packs && bytes.size() >= kLeastPacked) {
-    std::string small = packed(bytes);
+    std::string small = packed_by_gzip(bytes);
     if (!small.empty() && small.size() < bytes.size())
       file.gzip = std::make_shared<const std::string>(std::move(small));
   }

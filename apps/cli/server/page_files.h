@@ -23,6 +23,9 @@ using PageFiles = std::map<std::string, PageFile>;
 /// Packs and tags the bytes; the type follows from the name's ending.
 PageFile make_page_file(const std::string& name, std::string bytes);
 
+/// The bytes as a gzip file; empty if zlib has no memory.
+std::string packed_by_gzip(const std::string& bytes);
+
 /// Every regular file in and below the folder. Symbolic links and names with a leading dot are left out. Errors: an
 /// unreadable file; a folder that is far too large for a page; no index.html.
 Result<PageFiles> read_page(const std::string& folder);

@@ -16,7 +16,7 @@ constexpr std::array kCommonOptions{"--help",      "--help-all", "--output",  "-
                                     "--size",      "--samples",  "--style",   "--background", "--light",  "--ao",
                                     "--view-from", "--turn",     "--zoom",    "--projection", "--select", "--colour",
                                     "--colour-by", "--hide",     "--opacity", "--radius",     "--frame",  "--legend",
-                                    "--title",     "--port",     "--bind",    "--no-browser"};
+                                    "--title",     "--port",     "--bind",    "--no-browser", "--html"};
 // A command with more options than this has a short help and a long one.
 constexpr std::size_t kLongHelp = 30;
 

@@ -1,0 +1,129 @@
+// The page as one file: opened without a server and without a network, with engine and data inside.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { copyFileSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { gzipSync } from 'node:zlib';
+import {
+  and_settle, assert_same_picture, folder, launch, native_picture, no_complaints, open_own, open_page, saved_picture, scratch,
+  set_value, settled, shown_error,
+} from './page_kit.mjs';
+import { serve } from './page_server.mjs';
+
+const water = join(scratch, 'w & "water".xyz');
+const points = join(scratch, 'many.xyz.gz');
+let browser, server;
+before(async () => {
+  writeFileSync(water, '3\nwater\nO 0 0 0\nH 0.96 0 0\nH -0.24 0.93 0\n');
+  const lines = Array.from({ length: 3000 }, (_, i) => `C ${i % 15} ${Math.floor(i / 15) % 15} ${Math.floor(i / 225)}`);
+  writeFileSync(points, gzipSync(`3000\ngrid\n${lines.join('\n')}\n`));
+  browser = await launch();
+  server = await serve(folder, { isolated: false });
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+/** What `bihive web INPUT --html` writes. */
+function written(name, ...words) {
+  const file = join(scratch, name);
+  execFileSync(process.env.BIHIVE, ['web', ...words, '--html', file], { env: { ...process.env, BIHIVE_PAGE: folder } });
+  return file;
+}
+
+async function open_file(file, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 900, height: 600 }, acceptDownloads: true, offline: true, ...options });
+  context.setDefaultTimeout(300_000);
+  const page = await context.newPage();
+  const complaints = [];
+  page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
+  page.on('pageerror', (error) => complaints.push(`script: ${error.message}`));
+  context.on('request', (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`a request: ${request.url()}`));
+  await page.goto(pathToFileURL(file).href);
+  return { context, page, complaints };
+}
+
+async function save_page(page, name) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save_page')]);
+  const file = join(scratch, name);
+  copyFileSync(await download.path(), file);
+  return { file, name: download.suggestedFilename() };
+}
+
+const style_of = (page) => page.$eval('#style input:checked', ({ value }) => value);
+
+test('the page without data is one file of at most 2 MB, which shows the molecule', async () => {
+  const file = join(folder, 'one_file.html');
+  assert.ok(statSync(file).size <= 2e6, `${statSync(file).size} bytes`);
+  assert.doesNotMatch(readFileSync(file, 'utf8').replace(/<style>[^]*?<\/style>/, ''), /<[^>]* (src|href)="(?!data:|#)/);
+  const { context, page, complaints } = await open_file(file);
+  await settled(page);
+  assert.match(await page.textContent('#facts'), /demo: /);
+  assert.ok(await page.isHidden('#copy_link'));
+  console.log(`first picture from a file: ${(await page.evaluate(() => performance.getEntriesByName('first picture')[0].startTime)).toFixed(0)} ms`);
+  await page.screenshot({ path: join(scratch, 'one-file.png') });
+  no_complaints(complaints);
+  await context.close();
+});
+
+for (const [name, input, words] of [
+  ['a file', water, ['--style', 'studio', '--eye', '2,3,9', '--look-at', '0,0.3,0', '--background', '#203040']],
+  ['a packed file', points, ['--radius', '0.3', '--colour-by', 'z', '--eye', '30,40,50', '--look-at', '7,7,6']],
+  ['a built-in scene', 'scenario2', ['--count', '500', '--recursion', '3']],
+])
+  test(`bihive web --html writes ${name} as one page, which draws the bits of bihive render`, async () => {
+    const file = written('written.html', input, ...words);
+    const { context, page, complaints } = await open_file(file);
+    await settled(page);
+    assert_same_picture(await saved_picture(page, 300, 200), native_picture(input, 'written', ...words, '--size', '300x200', '--no-metadata'), name);
+    no_complaints(complaints);
+    await context.close();
+  });
+
+test('what the page shows is saved as one page, and again from that', async () => {
+  const { page, context, complaints } = await open_page(browser, server.url);
+  await open_own(page, water, '3 spheres');
+  await and_settle(page, () => page.check('#style input[value=glossy]', { force: true }));
+  await and_settle(page, () => page.click('button[data-side=back]'));
+  const shown = await saved_picture(page, 240, 160);
+  const saved = await save_page(page, 'saved.html');
+  assert.equal(saved.name, 'w & _water_.html');
+  no_complaints(complaints);
+  await context.close();
+
+  const first = await open_file(saved.file, { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+  await settled(first.page);
+  assert.match(await first.page.textContent('#facts'), /^w & "water"\.xyz: 3 spheres, XYZ/);
+  assert.equal(await style_of(first.page), 'glossy');
+  await first.page.screenshot({ path: join(scratch, 'one-file-phone.png') });
+  await first.context.close();
+
+  const wide = await open_file(saved.file);
+  await settled(wide.page);
+  assert_same_picture(await saved_picture(wide.page, 240, 160), shown, 'opened');
+  await and_settle(wide.page, () => set_value(wide.page, '#fov', 70));
+  const again = await save_page(wide.page, 'again.html');
+  const other = await saved_picture(wide.page, 240, 160);
+  no_complaints(wide.complaints);
+  await wide.context.close();
+
+  const last = await open_file(again.file);
+  await settled(last.page);
+  assert_same_picture(await saved_picture(last.page, 240, 160), other, 'opened again');
+  // A file of the reader's own works there too.
+  await open_own(last.page, points, '3,000 spheres');
+  no_complaints(last.complaints);
+  await last.context.close();
+});
+
+test('where the page was built without the one file, saving says so', async () => {
+  const partial = await serve(folder, { isolated: false, files: { '/one_file.html': join(scratch, 'absent') } });
+  const { page, context } = await open_page(browser, partial.url);
+  await page.click('#save_page');
+  assert.match(await shown_error(page), /could not be saved: it was built without one_file\.html/);
+  await context.close();
+  partial.close();
+});
