@@ -24,9 +24,8 @@ struct Part {
 ThesisProgram::ThesisProgram(const Scene& scene, const Tree& tree) : camera_(scene.camera) {
   const SphereSet& set = scene.spheres;
   for (const std::int64_t id : tree.sphere_ids) {
-    const Vec3d centre = set.centre(id);
-    spheres_.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z),
-                        static_cast<float>(set.radius(id))});
+    const Vec3f centre = to_float(set.centre(id));
+    spheres_.push_back({centre.x, centre.y, centre.z, static_cast<float>(set.radius(id))});
     ids_.push_back(static_cast<std::int32_t>(id));
   }
   // A clip node has one child between two planes, a one-sided node one child beyond one plane: both become splits with
@@ -136,12 +135,8 @@ void ThesisProgram::draw(int width, int height, bool by_tree, std::vector<std::i
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Ray ray = pixels.at(x + 0.5, y + 0.5);
-      const auto dx = static_cast<float>(ray.direction.x), dy = static_cast<float>(ray.direction.y),
-                 dz = static_cast<float>(ray.direction.z);
-      const float scale = 1 / std::sqrt(dx * dx + dy * dy + dz * dz);
-      const ProgramRay one{
-          {static_cast<float>(ray.origin.x), static_cast<float>(ray.origin.y), static_cast<float>(ray.origin.z)},
-          {dx * scale, dy * scale, dz * scale}};
+      const Vec3f from = ray.origin, to = normalized(ray.direction);
+      const ProgramRay one{{from.x, from.y, from.z}, {to.x, to.y, to.z}};
       ids[at++] = by_tree ? closest_by_tree(one) : closest_by_brute_force(one);
     }
 }
