@@ -49,7 +49,7 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
   Json found = Json::object();
   std::vector<Contestant> best, all,
       bars;  // per configuration; all except trees of one leaf; those in the text's charts
-  std::vector<double> over_brute, one_leaf_over_brute;
+  std::vector<double> one_leaf_over_brute;
   std::map<std::int64_t, std::vector<Contestant>> best_of_scenario;
   for (const auto& [configuration, trees] : work) {
     const std::int64_t spheres = configuration.second;
@@ -60,9 +60,8 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
       const Contestant& tree = any.emplace_back(Contestant{costs.of(one), prims, configuration});
       const auto is_this = [&](std::int64_t of_text) { return std::min(of_text, spheres) == tree.max_prims; };
       if (std::any_of(pattern.among.begin(), pattern.among.end(), is_this)) named.push_back(tree);
-      over_brute.push_back(tree.cost / brute.cost);
       if (prims == spheres)
-        one_leaf_over_brute.push_back(over_brute.back());
+        one_leaf_over_brute.push_back(tree.cost / brute.cost);
       else
         all.push_back(tree);
     }
@@ -82,7 +81,6 @@ Json quantities_at(const FigureWork& work, const WinPattern& pattern, const Step
   found["worst_by_brute_force"] = worst.max_prims == 0 ? worst.configuration.second : 0;
   const auto [least, most] = std::minmax_element(one_leaf_over_brute.begin(), one_leaf_over_brute.end());
   found["one_leaf_over_brute_force"] = {*least, *most};
-  found["slowest_tree_over_brute_force"] = *std::max_element(over_brute.begin(), over_brute.end());
 
   const auto cost_of = [&](const std::string& name) {
     const auto trees = work.find({values.integer(name + ".scenario"), values.integer(name + ".spheres")});

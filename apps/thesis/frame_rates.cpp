@@ -176,18 +176,17 @@ class FigureData {
   void fit(const TimedProgram& program) {
     EngineTimes times;
     Json last;
+    std::int64_t differ = data_.value("pixels_that_differ", 0);
     for (const auto& [configuration, trees] : work_) {
       const Json* const result = experiment_.result(step_of(program, configuration));
       if (result == nullptr) return;
-      if (result->contains("missing")) {
-        data_["missing_shader"] = (*result)["missing"];
-        return;
-      }
       last = *result;
+      if (last.contains("missing")) data_["missing_shader"] = last["missing"];
+      if (last.contains("missing")) return;
       times[configuration] = times_of(last);
-      const std::int64_t most = data_.value("pixels_that_differ", 0), here = last.value("pixels_that_differ", 0);
-      data_["pixels_that_differ"] = std::max(most, here);
+      differ = std::max(differ, last.value("pixels_that_differ", std::int64_t{0}));
     }
+    data_["pixels_that_differ"] = differ;
     add_rates(program, times);
     const int threads = experiment_.settings.threads > 0 ? experiment_.settings.threads : hardware_threads();
     const double pixels = last["width_px"].get<double>() * last["height_px"].get<double>();
@@ -212,7 +211,7 @@ class FigureData {
     if (!gpu.empty()) row["one_sphere_ms"] = median(last.at("one_sphere_ms").get<std::vector<double>>());
     if (fitted.determined()) data_["rates"].back()["costs"] = costs_text(fitted.costs());
     data_["fits"].push_back(std::move(row));
-    fits_.push_back({program.key, name, fitted, software});
+    if (fitted.determined()) fits_.push_back({program.key, name, fitted, software});
   }
 
   // Frames per second, without verdicts, and the thesis program's as charts like the text's.
@@ -237,7 +236,7 @@ class FigureData {
   void add_diagram() const {
     CostDiagram diagram = cost_diagram(work_, pattern_, seeds_);
     for (const auto& [key, name, fitted, software] : fits_)
-      if (fitted.determined()) diagram.points.push_back({name.substr(0, name.find(',')), fitted});
+      diagram.points.push_back({name.substr(0, name.find(',')), fitted});
     write("costs.svg", cost_diagram_svg(diagram));
     write("costs.csv", cost_diagram_csv(diagram));
     const Json numbers = {{"inner_node_per_sphere_test", diagram.inner},
@@ -342,7 +341,7 @@ class FigureData {
       row["elsewhere"] = Json::array();
     }
     for (const auto& [key, name, fitted, software] : fits_) {
-      if (software || !fitted.determined()) continue;  // no verdict
+      if (software) continue;  // no verdict
       programs.push_back({{"name", name}, {"costs", costs_text(fitted.costs())}});
       data_["at"][key] = quantities_at(work_, pattern_, fitted.costs(), values_);
       const Json there = findings_at(data_["at"][key]);

@@ -44,8 +44,7 @@ bool asks_for(const ThesisOptions& options, const std::string& experiment) {
 void check_values(const ThesisOptions& options) {
   if (options.values.empty()) return;
   if (!fs::is_directory(options.values)) fail({"there is no such folder", options.values, 0, 0, "--values names one"});
-  std::vector<std::string> bundled;
-  bool found = false;
+  std::vector<std::string> own, bundled;
   for (const std::string& id : cli::thesis_experiments()) {
     if (id == "all" || !asks_for(options, id)) continue;
     const std::string file = options.values + "/" + id + "/values.json";
@@ -53,10 +52,9 @@ void check_values(const ThesisOptions& options) {
     const bool here = fs::exists(file, unknown) || unknown;
     if (!here && names(options, id))
       fail({"there are no values of " + id, file, 0, 0, "leave out --values, or name another experiment"});
-    if (!here) bundled.push_back(id);
-    found = found || here;
+    (here ? own : bundled).push_back(id);
   }
-  if (!found)
+  if (own.empty())
     fail({"there are no values in it", options.values, 0, 0, "expected " + options.values + "/EXPERIMENT/values.json"});
   if (!bundled.empty())
     warn(fmt::format("{}: holds no values of {}; the bundled ones are used", options.values, fmt::join(bundled, ", ")));
@@ -73,32 +71,28 @@ void add_experiments(const ThesisOptions& options, Report& report) {
 }
 
 std::string compiler() {
-#if defined(__clang__)
-  constexpr const char* kName = "clang";
-#else
-  constexpr const char* kName = "gcc";
+  std::string name = "gcc " __VERSION__;
+#ifdef __clang__
+  name = "clang " __VERSION__;
 #endif
-#ifdef NDEBUG
-  constexpr const char* kChecks = "";
-#else
-  constexpr const char* kChecks = ", with assertions";
+#ifndef NDEBUG
+  name += ", with assertions";
 #endif
-  return fmt::format("{} {}{}; vectors: {}", kName, __VERSION__, kChecks, active_target());
+  return fmt::format("{}; vectors: {}", name, active_target());
 }
 
-// An argument of a command line, in quotes if a shell would split it.
-std::string in_shell(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-// The command of this run, to repeat it.
+// The command of this run, to repeat it, with quotes around arguments that a shell would split.
 std::string command_of(int argc, const char* const* argv) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";
   std::string command = "bihive";
-  for (int i = 1; i < argc; ++i) command += " " + in_shell(argv[i]);
+  for (int i = 1; i < argc; ++i) {
+    std::string word = argv[i];
+    if (word.empty() || word.find_first_not_of(kPlain) != std::string::npos) {
+      for (std::size_t at = 0; (at = word.find('\'', at)) != std::string::npos; at += 4) word.replace(at, 1, "'\\''");
+      word = "'" + word + "'";
+    }
+    command += " " + word;
+  }
   return command;
 }
 

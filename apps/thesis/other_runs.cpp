@@ -13,11 +13,6 @@
 namespace bihive::thesis {
 namespace {
 
-[[noreturn]] void fail_device(const std::string& file, const std::string& what) {
-  fail({"expected a run of the thesis as the page saves it: " + what, file, 0, 0,
-        "open the page on the device, choose \"Run the thesis on this device\", then \"Save JSON\""});
-}
-
 Json::other_error wrong(const char* what) {
   return Json::other_error::create(501, what, static_cast<const Json*>(nullptr));
 }
@@ -67,8 +62,7 @@ Json run_from(const Json& document, const Values& values) {
       costs[name] = document["costs"].at(name).get<double>();
     const CostWords words = cost_words(costs["inner_per_test"], costs["inner_per_test_error"], costs["leaf_per_inner"],
                                        costs["leaf_per_inner_error"]);
-    costs["inner_words"] = words.inner;
-    costs["leaf_words"] = words.leaf;
+    costs.update({{"inner_words", words.inner}, {"leaf_words", words.leaf}});
   }
   return run;
 }
@@ -134,12 +128,15 @@ Json devices_data(const std::vector<std::string>& files, const Values& figure_4_
   for (const std::string& file : files) {
     // Each file is read once: it may be a pipe.
     const Result<Json> document = json_from_text<Json>(value_or_fail(read_file(file)));
-    if (!document) fail_device(file, document.error().message);
+    std::string fault = document ? "" : document.error().message;
     try {
-      add_document(*document, figure_4_4, data);
+      if (document) add_document(*document, figure_4_4, data);
     } catch (const Json::exception& error) {
-      fail_device(file, error.what());
+      fault = error.what();
     }
+    if (!fault.empty())
+      fail({"expected a run of the thesis as the page saves it: " + fault, file, 0, 0,
+            "open the page on the device, choose \"Run the thesis on this device\", then \"Save JSON\""});
   }
   return data;
 }

@@ -159,6 +159,36 @@ class Figure44(ProgramTest):
         data = self.without_egl(lambda: self.measure(**one))["data"]
         self.assertEqual((data["possible"]["wins"], data["possible"]["where"], data["possible"]["pattern"]), (1, "nowhere", "nowhere"))
 
+    def check_reasons(self, counts, claims):
+        """What the report's reasons say of the costs, by the counts themselves."""
+        work = {(row["scenario"], row["spheres"], row["max_prims"]): row for row in counts}
+
+        def cost_of(row, inner, leaf, fixed):
+            return fixed + inner * (row["inner"] + leaf * row["leaves"]) + row["tests"]
+
+        # The most gain of Scenario 2 is with 256 spheres at all costs of the diagram, whatever the fixed part.
+        for inner in (2 ** (step / 4) for step in range(-8, 17)):
+            for leaf in (0, 0.25, 0.5, 1):
+                for fixed in (0, 1, 10, 100):
+                    gains = {}
+                    for spheres in (64, 128, 256):
+                        best = min(cost_of(work[2, spheres, tree], inner, leaf, fixed) for tree in (1, 2, 4, 8, 16))
+                        gains[spheres] = (fixed + spheres) / best
+                    self.assertEqual(max(gains, key=gains.get), 256, (inner, leaf, fixed))
+
+        # The bars above that of BIH 8 with 64 spheres in Scenario 1 are all of Scenario 2.
+        costs = claims["inner"], claims["leaf"], claims["fixed"]
+        stated = cost_of(work[1, 64, 8], *costs)
+        above = [key for key, row in work.items() if key[2] <= 16 and cost_of(row, *costs) < stated]
+        self.assertGreater(len(above), 10)
+        self.assertEqual({scenario for scenario, _, _ in above}, {2})
+
+        # A tree of several leaves is slower than brute force where an inner node costs more than 19 sphere tests.
+        equal = {key: (key[1] - row["tests"]) / row["inner"] for key, row in work.items() if row["inner"] > 0}
+        first = min(equal, key=equal.get)
+        self.assertEqual(first, (3, 64, 1))
+        self.assertAlmostEqual(equal[first], 19, delta=0.3)
+
     def test_three_costs_give_the_texts_pattern(self):
         """MAX_PRIMS 8 wins 7 of 9, and 16 in Scenario 2 with 128 spheres, at costs that the counts of an independent
         program give too: with seed 1 an inner node costs 3.32 to 3.96 sphere tests where a leaf costs nothing, 3.37 to
@@ -191,6 +221,7 @@ class Figure44(ProgramTest):
         self.assertEqual(findings["best.configuration"]["ours"], "BIH 8, 64 primitives, Scenario 2")
         self.assertEqual(findings["supposed_best.configuration"]["verdict"], "agrees")
         self.assertEqual(sum(name.startswith("curve") for name in at_costs), 9)
+        self.check_reasons(experiment["data"]["counts"], claims)
 
         # Assumptions decide: what is changed has another range. The shape of the picture changes nothing but rays that miss.
         variations = {row["key"]: row for row in experiment["data"]["variations"]}

@@ -50,13 +50,18 @@ class Diagram {
   std::size_t columns() const { return data_.inner.size(); }
   std::size_t rows() const { return data_.leaf.size(); }
 
-  // The middle of the first column lies half a cell right of the axis, and so does that of the first row.
+  static double within(double cost, const std::vector<double>& axis) {
+    return std::clamp(cost, axis.front(), axis.back());
+  }
+  // At the edge if the cost lies outside. The middle of the first column lies half a cell right of the axis, and so
+  // does that of the first row.
   double x_of(double inner) const {
     const double low = std::log10(data_.inner.front()), high = std::log10(data_.inner.back());
-    return kLeft + cell_width_ / 2 + (std::log10(inner) - low) / (high - low) * (kPlotWidth - cell_width_);
+    const double part = (std::log10(within(inner, data_.inner)) - low) / (high - low);
+    return kLeft + cell_width_ / 2 + part * (kPlotWidth - cell_width_);
   }
   double y_of(double leaf) const {
-    const double part = (leaf - data_.leaf.front()) / (data_.leaf.back() - data_.leaf.front());
+    const double part = (within(leaf, data_.leaf) - data_.leaf.front()) / (data_.leaf.back() - data_.leaf.front());
     return kTop + kPlotHeight - cell_height_ / 2 - part * (kPlotHeight - cell_height_);
   }
   double x_at(std::size_t column) const { return kLeft + static_cast<double>(column) * cell_width_; }
@@ -96,19 +101,15 @@ class Diagram {
 
   // Drawn at the edge, with its numbers, if it lies outside.
   std::string mark(const CostPoint& point) {
-    const auto x_within = [this](double inner) {
-      return x_of(std::clamp(inner, data_.inner.front(), data_.inner.back()));
-    };
-    const auto y_within = [this](double leaf) { return y_of(std::clamp(leaf, data_.leaf.front(), data_.leaf.back())); };
     const double inner = point.fitted.costs().inner, inner_error = point.fitted.inner_error;
     const double leaf = point.fitted.costs().leaf, leaf_error = point.fitted.leaf_error;
-    const double x = x_within(inner), y = y_within(leaf);
-    const bool outside = x != x_of(inner) || y != y_of(leaf);
+    const double x = x_of(inner), y = y_of(leaf);
+    const bool outside = inner != within(inner, data_.inner) || leaf != within(leaf, data_.leaf);
     std::string drawn;
     if (!outside)
       drawn = fmt::format("<path class=\"error\" d=\"M{:.1f} {:.1f}H{:.1f}M{:.1f} {:.1f}V{:.1f}\"/>",
-                          x_within(inner - inner_error), y, x_within(inner + inner_error), x,
-                          y_within(leaf - leaf_error), y_within(leaf + leaf_error));
+                          x_of(inner - inner_error), y, x_of(inner + inner_error), x, y_of(leaf - leaf_error),
+                          y_of(leaf + leaf_error));
 
     // Place its name below names already there, or above them near the axis.
     const std::string numbers = fmt::format("{:.2f}, {:.2f}", inner, leaf);

@@ -65,20 +65,16 @@ Status ShownFrames::prepare() {
 }
 
 Result<const Image*> ShownFrames::draw() {
-  if (Status status = prepare(); !status) {
-    failed_ = true;
-    return status.error();
-  }
+  failed_ = true;  // unless everything below succeeds
+  if (Status status = prepare(); !status) return status.error();
   Scene& scene = *scene_;
   const RenderSettings settings = plan_.settings(scene);
   const Camera at_rest = scene.camera;
   if (rates_[next_].turning) scene.camera = turned(at_rest, turned_);
   Result<Rendered> rendered = render(scene, *tracer_, settings, {}, nullptr, std::move(film_));
   scene.camera = at_rest;
-  if (!rendered) {
-    failed_ = true;
-    return rendered.error();
-  }
+  if (!rendered) return rendered.error();
+  failed_ = false;
   film_ = std::move(rendered->film);
   image_ = image_from_film(film_, settings.view, scene.picture.transfer, settings.threads);
   return &image_;

@@ -63,12 +63,12 @@ Result<StatedValues> StatedValues::parse(std::string_view bytes, std::string fil
     const json kind = entry.value("kind", json());
     if (std::find(std::begin(kKinds), std::end(kKinds), kind) == std::end(kKinds))
       return stated.error_at("/values/" + name + "/kind", R"("stated", "set", "fitted", "inferred" or "own_check")");
-    const json& value = entry["value"];
+    const json &value = entry["value"], printed = entry.value("printed", json());
     Value& one = stated.values_[name];
     one.is_list = value.is_array();
     if (value.is_array()) one.numbers = value.get<std::vector<double>>();
     if (value.is_number()) one.numbers = {value.get<double>()};
-    one.printed = entry.contains("printed") && entry["printed"].is_string() ? entry["printed"].get<std::string>() : "";
+    if (printed.is_string()) one.printed = printed.get<std::string>();
     // If only the value was changed, the printed number is out of date.
     const std::optional<double> number = number_in_print(one.printed);
     if (one.printed.empty() || (number && (!value.is_number() || *number != value)))

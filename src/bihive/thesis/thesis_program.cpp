@@ -21,20 +21,18 @@ struct Part {
 
 }  // namespace
 
-ThesisProgram::ThesisProgram(const Scene& scene, const Tree& tree) : camera_(scene.camera) {
-  const SphereSet& set = scene.spheres;
+ThesisProgram::ThesisProgram(const Scene& scene, const Tree& tree)
+    : camera_(scene.camera), scale_(static_cast<float>(scene.spheres.scale())), box_(tree.aabb) {
   for (const std::int64_t id : tree.sphere_ids) {
-    const Vec3d centre = set.centre(id);
-    spheres_.push_back({static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z),
-                        static_cast<float>(set.radius(id))});
+    const Vec3f centre = to_float(scene.spheres.stored_centre(id));
+    spheres_.push_back({centre.x, centre.y, centre.z, static_cast<float>(scene.spheres.stored_radius(id))});
     ids_.push_back(static_cast<std::int32_t>(id));
   }
   // A clip node has one child between two planes, a one-sided node one child beyond one plane: both become splits with
   // a plane that admits everything or nothing.
-  const auto scale = static_cast<float>(set.inverse_scale());
   for (const Node& node : tree.nodes) {
-    ProgramNode one{node.left_clip * scale,
-                    node.right_clip * scale,
+    ProgramNode one{node.left_clip,
+                    node.right_clip,
                     static_cast<std::int32_t>(node.first),
                     static_cast<std::int32_t>(node.sphere_count),
                     static_cast<std::int8_t>(node.split_axis),
@@ -43,10 +41,6 @@ ThesisProgram::ThesisProgram(const Scene& scene, const Tree& tree) : camera_(sce
     if (node.kind == NodeKind::one_left) one.right_clip = one.left_clip, one.left_clip = -kNever;
     if (node.kind == NodeKind::one_right) one.left_clip = one.right_clip, one.right_clip = kNever;
     nodes_.push_back(one);
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    lo_[axis] = tree.aabb.lo[axis] * scale;
-    hi_[axis] = tree.aabb.hi[axis] * scale;
   }
 }
 
@@ -74,7 +68,7 @@ std::int32_t ThesisProgram::closest_by_tree(const ProgramRay& ray) const {
   float over[3], pad = 0;
   for (int axis = 0; axis < 3; ++axis) {
     over[axis] = 1 / (std::abs(ray.direction[axis]) < 1e-30F ? 1e-30F : ray.direction[axis]);
-    pad = std::max({pad, std::abs(ray.origin[axis]), std::abs(lo_[axis]), std::abs(hi_[axis])});
+    pad = std::max({pad, std::abs(ray.origin[axis]), std::abs(box_.lo[axis]), std::abs(box_.hi[axis])});
   }
   pad *= kPad;
   const auto below = [&](Part part, int axis, float plane) {
@@ -89,7 +83,7 @@ std::int32_t ThesisProgram::closest_by_tree(const ProgramRay& ray) const {
   // Test the box around everything.
   Nearest nearest{kNever, -1};
   Part part{0, kNever};
-  for (int axis = 0; axis < 3; ++axis) part = below(above(part, axis, lo_[axis]), axis, hi_[axis]);
+  for (int axis = 0; axis < 3; ++axis) part = below(above(part, axis, box_.lo[axis]), axis, box_.hi[axis]);
   if (part.empty() || spheres_.empty()) return -1;
 
   struct Waiting {
@@ -136,12 +130,8 @@ void ThesisProgram::draw(int width, int height, bool by_tree, std::vector<std::i
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Ray ray = pixels.at(x + 0.5, y + 0.5);
-      const auto dx = static_cast<float>(ray.direction.x), dy = static_cast<float>(ray.direction.y),
-                 dz = static_cast<float>(ray.direction.z);
-      const float scale = 1 / std::sqrt(dx * dx + dy * dy + dz * dz);
-      const ProgramRay one{
-          {static_cast<float>(ray.origin.x), static_cast<float>(ray.origin.y), static_cast<float>(ray.origin.z)},
-          {dx * scale, dy * scale, dz * scale}};
+      const Vec3f from = ray.origin * scale_, to = normalized(ray.direction);
+      const ProgramRay one{{from.x, from.y, from.z}, {to.x, to.y, to.z}};
       ids[at++] = by_tree ? closest_by_tree(one) : closest_by_brute_force(one);
     }
 }

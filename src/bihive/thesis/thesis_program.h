@@ -12,7 +12,7 @@
 
 namespace bihive {
 
-/// Spheres and a tree in binary32, in world units.
+/// Spheres and a tree in binary32, in stored units, as the shader has them.
 class ThesisProgram {
  public:
   ThesisProgram(const Scene& scene, const Tree& tree);
@@ -44,10 +44,11 @@ class ThesisProgram {
   std::int32_t closest_by_brute_force(const ProgramRay& ray) const;
 
   Camera camera_;
+  float scale_;
+  Aabb box_;
   std::vector<Sphere> spheres_;  // in leaf order
   std::vector<std::int32_t> ids_;
   std::vector<ProgramNode> nodes_;
-  float lo_[3], hi_[3];
 };
 
 }  // namespace bihive
