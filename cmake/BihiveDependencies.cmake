@@ -1,4 +1,5 @@
-# The libraries that bihive needs. Sets BIHIVE_LIBRARY_DEPENDENCIES and BIHIVE_CLI_DEPENDENCIES.
+# The libraries that bihive needs. Sets BIHIVE_RAYS_DEPENDENCIES, those of bihive::rays, BIHIVE_LIBRARY_DEPENDENCIES, those of
+# bihive::pictures, and BIHIVE_CLI_DEPENDENCIES.
 
 # Stops with a message that names the package to install.
 function(bihive_missing what debian_package)
@@ -25,6 +26,7 @@ function(bihive_require_header header debian_package)
 endfunction()
 
 # Header-only libraries are never linked to an installed bihive: only its build needs them.
+set(BIHIVE_RAYS_DEPENDENCIES "")
 set(BIHIVE_LIBRARY_DEPENDENCIES "")
 set(BIHIVE_CLI_DEPENDENCIES "")
 
@@ -36,6 +38,7 @@ endif()
 
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 bihive_require(Threads libc6-dev)
+list(APPEND BIHIVE_RAYS_DEPENDENCIES Threads::Threads)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES Threads::Threads)
 if(BIHIVE_BARE)
   include(BihiveBare)
@@ -43,12 +46,15 @@ if(BIHIVE_BARE)
 endif()
 if(NOT BIHIVE_OWN_POOL)
   bihive_require(TBB libtbb-dev)
+  list(APPEND BIHIVE_RAYS_DEPENDENCIES TBB::tbb)
   list(APPEND BIHIVE_LIBRARY_DEPENDENCIES TBB::tbb)
 endif()
 bihive_require(PNG libpng-dev)
 bihive_require(ZLIB zlib1g-dev)
 bihive_require(fmt libfmt-dev)
 bihive_require(hwy libhwy-dev)
+# Its texts of numbers are compiled into bihive::rays, which is used without the library.
+list(APPEND BIHIVE_RAYS_DEPENDENCIES hwy::hwy $<BUILD_INTERFACE:fmt::fmt-header-only>)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES PNG::PNG ZLIB::ZLIB fmt::fmt hwy::hwy)
 bihive_require(nlohmann_json nlohmann-json3-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)

@@ -6,10 +6,19 @@ include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/bihive)
 # A shared library belongs to the programs' package, and its name for the linker to the developers'.
-install(
-  TARGETS bihive_lib EXPORT bihiveTargets
-  ARCHIVE COMPONENT libbihive-dev
-  LIBRARY COMPONENT bihive NAMELINK_COMPONENT libbihive-dev)
+foreach(target_and_export bihive_rays:bihiveRaysTargets bihive_lib:bihivePicturesTargets)
+  string(REPLACE ":" ";" target_and_export ${target_and_export})
+  list(GET target_and_export 0 target)
+  list(GET target_and_export 1 export)
+  install(
+    TARGETS ${target} EXPORT ${export}
+    ARCHIVE COMPONENT libbihive-dev
+    LIBRARY COMPONENT bihive NAMELINK_COMPONENT libbihive-dev)
+  install(EXPORT ${export} NAMESPACE bihive:: DESTINATION ${config_folder} COMPONENT libbihive-dev)
+  if(BUILD_SHARED_LIBS)
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  endif()
+endforeach()
 set(public_headers ${PROJECT_SOURCE_DIR}/cmake/public_headers.txt)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${public_headers})
 file(STRINGS ${public_headers} headers REGEX "^bihive/")
@@ -18,7 +27,6 @@ foreach(header ${headers})
   install(FILES ${PROJECT_SOURCE_DIR}/src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder}
           COMPONENT libbihive-dev)
 endforeach()
-install(EXPORT bihiveTargets NAMESPACE bihive:: DESTINATION ${config_folder} COMPONENT libbihive-dev)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/bihiveConfig.cmake.in ${PROJECT_BINARY_DIR}/bihiveConfig.cmake
                               INSTALL_DESTINATION ${config_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/bihiveConfigVersion.cmake COMPATIBILITY SameMinorVersion)

@@ -1,6 +1,7 @@
 # `cpack` (make package): Debian packages, one a component, and an archive for any Linux. What is installed belongs to one
 # of these components:
-#   bihive          the programs, the library for C, the page, manual pages, completions, desktop files
+#   bihive          the programs, the page, manual pages, completions, desktop files
+#   libbihive-c     the library for C; its package has the version of the soname: libbihive-cMAJOR.MINOR
 #   libbihive-dev   the library, its headers, bihive.h, CMake and pkg-config files
 #   python          the Python package, where it is built: python3-bihive
 #   license         LICENSE, for plain installations and the archive; Debian packages have a copyright file of their own
@@ -68,8 +69,24 @@ endif()
 if("bz2" IN_LIST BIHIVE_LIBRARY_DEPENDENCIES)
   list(APPEND needed libbz2-dev)
 endif()
-if(BUILD_SHARED_LIBS OR BIHIVE_BUILD_C)
+if(BUILD_SHARED_LIBS)
   list(APPEND needed "bihive (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+endif()
+if(TARGET bihive_c)
+  # Versions of another soname are installed beside each other.
+  set(soname_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set(CPACK_DEBIAN_LIBBIHIVE-C_PACKAGE_NAME libbihive-c${soname_version})
+  set(CPACK_DEBIAN_LIBBIHIVE-C_PACKAGE_SECTION libs)
+  set(CPACK_DEBIAN_LIBBIHIVE-C_PACKAGE_SHLIBDEPS ON)
+  # By which packages of programs that link it know what they need.
+  set(shlibs ${PROJECT_BINARY_DIR}/libbihive-c/shlibs)
+  file(WRITE ${shlibs} "libbihive_c ${soname_version} libbihive-c${soname_version} (>= ${PROJECT_VERSION})\n")
+  set(CPACK_DEBIAN_LIBBIHIVE-C_PACKAGE_CONTROL_EXTRA ${shlibs})
+  set(CPACK_COMPONENT_LIBBIHIVE-C_DESCRIPTION
+      "The library behind bihive for C and languages that call C: rays and points
+among spheres, and pictures. It has all that it needs inside and shows the
+functions of bihive.h alone.")
+  list(APPEND needed "libbihive-c${soname_version} (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 endif()
 list(JOIN needed ", " CPACK_DEBIAN_LIBBIHIVE-DEV_PACKAGE_DEPENDS)
 set(CPACK_COMPONENT_LIBBIHIVE-DEV_DESCRIPTION

@@ -123,9 +123,10 @@ int check_point_arguments(const bihive_tree* tree, const double* xyz, std::int64
   return kDone;
 }
 
-PointOptions options_of(const bihive_tree& tree, int distance_to, const std::uint8_t* mask, int threads) {
+PointOptions options_of(const bihive_tree& tree, int distance_to, const std::uint8_t* mask, const std::int64_t* exclude,
+                        int threads) {
   return {distance_to == BIHIVE_CENTRE ? DistanceTo::centre : DistanceTo::surface, mask, threads,
-          tree.images ? &*tree.images : nullptr};
+          tree.images ? &*tree.images : nullptr, exclude};
 }
 
 // The same where rays may see images. in_images(images, rays, first, chunk) returns a ray of the chunk without an end,
@@ -306,12 +307,13 @@ int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int thread
 }
 
 int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
-                   int distance_to, const uint8_t* mask, int threads, double* distances, int64_t* spheres) {
+                   int distance_to, const uint8_t* mask, const int64_t* exclude, int threads, double* distances,
+                   int64_t* spheres) {
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     if (count > 0 && (distances == nullptr || spheres == nullptr)) return failed("there is no place for the spheres");
     const auto nearest = nearest_spheres(*tree->tree, PointSpan::rows(xyz, count), most, within,
-                                         options_of(*tree, distance_to, mask, threads));
+                                         options_of(*tree, distance_to, mask, exclude, threads));
     if (!nearest) return failed(nearest.error());
     std::copy(nearest->distance.begin(), nearest->distance.end(), distances);
     std::copy(nearest->sphere_id.begin(), nearest->sphere_id.end(), spheres);
@@ -336,13 +338,13 @@ void bihive_lists_free(bihive_lists* lists) {
 }
 
 int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits, int distance_to,
-                  const uint8_t* mask, int threads, bihive_lists** lists) {
+                  const uint8_t* mask, const int64_t* exclude, int threads, bihive_lists** lists) {
   if (lists == nullptr) return failed("there is no place for the lists");
   *lists = nullptr;
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     const PointSpan points = PointSpan::rows(xyz, count);
-    const PointOptions options = options_of(*tree, distance_to, mask, threads);
+    const PointOptions options = options_of(*tree, distance_to, mask, exclude, threads);
     auto found = limits != nullptr ? spheres_within(*tree->tree, points, limits, options)
                                    : spheres_within(*tree->tree, points, 0.0, options);
     if (!found) return failed(found.error());
@@ -352,13 +354,13 @@ int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, con
 }
 
 int bihive_count_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
-                        int distance_to, const uint8_t* mask, int threads, int64_t* counts) {
+                        int distance_to, const uint8_t* mask, const int64_t* exclude, int threads, int64_t* counts) {
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     if (count > 0 && counts == nullptr) return failed("there is no place for the counts");
     const std::vector<double> zeros(limits == nullptr ? static_cast<std::size_t>(count) : 0);
     const auto found = count_within(*tree->tree, PointSpan::rows(xyz, count), limits != nullptr ? limits : zeros.data(),
-                                    options_of(*tree, distance_to, mask, threads));
+                                    options_of(*tree, distance_to, mask, exclude, threads));
     if (!found) return failed(found.error());
     std::copy(found->begin(), found->end(), counts);
     return kDone;
@@ -371,7 +373,8 @@ int bihive_pairs(const bihive_tree* tree, double reach, int distance_to, const u
   *lists = nullptr;
   return guarded([&] {
     if (check_point_arguments(tree, nullptr, 0, distance_to, threads) != kDone) return kFailed;
-    auto pairs = sphere_pairs(*tree->tree, tree->spheres, reach, options_of(*tree, distance_to, mask, threads));
+    auto pairs =
+        sphere_pairs(*tree->tree, tree->spheres, reach, options_of(*tree, distance_to, mask, nullptr, threads));
     if (!pairs) return failed(pairs.error());
     auto made = std::make_unique<bihive_lists>();
     made->begin.assign(static_cast<std::size_t>(tree->spheres.size()) + 1, 0);

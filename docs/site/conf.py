@@ -26,9 +26,33 @@ include_patterns = [*PAGES, "docs/*.md", "docs/decisions/*.md", "docs/gallery/RE
 include_patterns += ["docs/tutorial/*.md", "docs/site/*.md", "docs/site/*.rst"]
 
 # The reference of Python comes from the built package's docstrings, where scripts/docs found one.
+NAMES = TOP / "docs/site/names"
+
+
+def write_pages_of_names():
+    """A page for each public name of the package; those of former names go."""
+    import bihive
+
+    names = [name for name in bihive.__all__ if not name.startswith("_")]
+    NAMES.mkdir(exist_ok=True)
+    for page in NAMES.glob("*.rst"):
+        if page.stem not in names:
+            page.unlink()
+    for name in names:
+        is_class = isinstance(getattr(bihive, name), type)
+        lines = [name, "=" * len(name), "", f".. {'autoclass' if is_class else 'autofunction'}:: bihive.{name}"]
+        lines += ["   :members:", "   :show-inheritance:"] if is_class else []
+        text = "\n".join([*lines, ""])
+        page = NAMES / f"{name}.rst"
+        if not page.exists() or page.read_text(encoding="utf-8") != text:
+            page.write_text(text, encoding="utf-8")
+
+
 package = os.environ.get("BIHIVE_PYTHON_PACKAGE", "")
 if package:
     sys.path.insert(0, package)
+    write_pages_of_names()
+    include_patterns.append("docs/site/names/*.rst")
 else:
     exclude_patterns = ["docs/site/python_reference.rst"]
 autodoc_member_order = "bysource"

@@ -4,6 +4,7 @@
 
 import json
 import os
+import re
 import shutil
 import struct
 import unittest
@@ -34,6 +35,11 @@ def with_changed_pixel(data):
             body, done = zlib.compress(pixels), True
         out += chunk(kind, body)
     return out
+
+
+def with_text(data, change):
+    """The PNG with its texts changed: change(body) of each tEXt chunk."""
+    return data[:8] + b"".join(chunk(kind, change(body) if kind == "tEXt" else body) for kind, body in png_chunks(data))
 
 
 class AgainTest(ProgramTest):
@@ -144,6 +150,17 @@ class Verify(AgainTest):
         self.draw("demo", *SMALL, "--bits", "16", "--background", "none", "--crop", "5,5,50,30")
         self.assertEqual(self.succeed("verify", "a.png"), "a.png: the same bits\n")
         self.assertEqual(self.verify_json("a.png")[0]["verified"], True)
+
+    def test_another_version_that_drew_the_same_bits(self):
+        self.draw("demo", *SMALL)
+        now = self.record("a.png")["version"]
+        old = b'"version":"0.0.9"'
+        self.write("old.png", with_text(self.read("a.png"), lambda body: body.replace(f'"version":"{now}"'.encode(), old)))
+        self.assertEqual(self.record("old.png")["version"], "0.0.9")
+        self.assertRegex(self.succeed("verify", "old.png"), rf"\Aold.png: the same bits, drawn by 0\.0\.9.*, now by {re.escape(now)}")
+        verdict = self.verify_json("old.png")[0]
+        self.assertEqual(verdict["verified"], True)
+        self.assertRegex(verdict["drawn_by"], r"\A0\.0\.9")
 
     def test_a_changed_picture_is_told_and_shown(self):
         self.draw("demo", *SMALL)

@@ -36,8 +36,8 @@ class Packages(unittest.TestCase):
         shutil.rmtree(SCRATCH, ignore_errors=True)
         output_of(CPACK, "-B", SCRATCH, cwd=BUILD, env={**os.environ, "SOURCE_DATE_EPOCH": "1767225600"})
         cls.unpacked = {}
-        for package in ("bihive", "libbihive-dev"):
-            cls.unpacked[package] = SCRATCH / "unpacked" / package
+        for package in ("bihive", "libbihive-c*", "libbihive-dev"):
+            cls.unpacked[package] = SCRATCH / "unpacked" / package.strip("*")
             cls.unpacked[package].mkdir(parents=True)
             output_of("dpkg-deb", "-x", one(f"{package}_*.deb"), cls.unpacked[package])
 
@@ -64,8 +64,6 @@ class Packages(unittest.TestCase):
             "usr/share/man/man1/bihive.1.gz",
             *(f"usr/share/man/man1/bihive-{command}.1.gz" for command in commands),
         }
-        library = sorted(path.name for path in (BUILD / "bindings/c").glob("libbihive_c.so.*"))
-        expected |= {f"usr/lib/{name}" for name in library}
         if (BUILD / "bihive-view").exists():
             expected |= {
                 "usr/bin/bihive-view",
@@ -78,11 +76,25 @@ class Packages(unittest.TestCase):
             expected |= {f"usr/share/bihive/web/{path.relative_to(page)}" for path in page.rglob("*") if path.is_file()}
         self.assertEqual(files, expected)
 
+    def test_the_package_of_the_library_for_c_has_the_name_of_its_soname(self):
+        library = (BUILD / "bindings/c/libbihive_c.so").resolve()
+        soname = re.search(r"SONAME.*\[libbihive_c\.so\.([\d.]+)\]", output_of("readelf", "-d", library)).group(1)
+        package = f"libbihive-c{soname}"
+        self.assertEqual(self.field("libbihive-c*", "Package"), package)
+        documents = {f"usr/share/doc/{package}/{name}" for name in ("copyright", "changelog.gz", "changelog.Debian.gz")}
+        names = {f"usr/lib/libbihive_c.so.{soname}", f"usr/lib/{library.name}", f"usr/share/lintian/overrides/{package}"}
+        self.assertEqual(self.files("libbihive-c*"), documents | names)
+        shlibs = output_of("dpkg-deb", "-I", one("libbihive-c*.deb"), "shlibs")
+        self.assertEqual(shlibs, f"libbihive_c {soname} {package} (>= {self.field('bihive', 'Version').split('-')[0]})\n")
+        self.assertIn(f"{package} (= {self.field('bihive', 'Version')})", self.field("libbihive-dev", "Depends"))
+        self.assertNotIn("libbihive", self.field("bihive", "Depends"))
+
     def test_the_package_of_the_library(self):
         headers = {line for line in (SOURCE / "cmake/public_headers.txt").read_text().splitlines() if line.startswith("bihive/")}
         files = self.files("libbihive-dev")
         self.assertLessEqual({f"usr/include/{header}" for header in headers}, files)
         self.assertIn("usr/lib/libbihive.a", files)
+        self.assertIn("usr/lib/libbihive_rays.a", files)
         self.assertIn("usr/lib/cmake/bihive/bihiveConfig.cmake", files)
         self.assertTrue([name for name in files if name.endswith("/pkgconfig/bihive.pc")])
         self.assertFalse([name for name in files if name.startswith(("usr/bin", "usr/share/man"))])

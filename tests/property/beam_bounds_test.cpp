@@ -12,6 +12,7 @@
 
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
+#include "bihive/math/infinity.h"
 #include "bihive/wide/trace/beam_rays-inl.h"
 #include "bihive/wide/trace/frustum-inl.h"
 #include "support/filter_search.h"

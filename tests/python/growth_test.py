@@ -57,6 +57,10 @@ def cases(folder):
     bh.render(f"{folder}/read.xyz", **options).save(f"{folder}/figure.png")
     found = tree.contains(points)
     moving = bh.Tree(s, threads=2)
+    box = bh.Tree(bh.Spheres(xyz % 4, radius=0.05, cell=[4, 4, 4], columns={"charge": xyz[:, 0]}), threads=2)
+    own = np.arange(600)
+    choices = [{}, {"mask": "charge > 0"}, {"exclude": own}, {"mask": xyz[:, 1] > 0, "exclude": 7}]
+    of_images = {"periodic": True, "t_max": 4, "exclude": own}
 
     def fields(thing):
         return lambda: [getattr(thing, name) for name in type(thing)._fields]
@@ -65,14 +69,14 @@ def cases(folder):
         "Spheres": lambda: bh.Spheres(xyz, radius=0.05, columns={"charge": xyz[:, 0]}),
         "Spheres.save": lambda: [s.save(f"{folder}/saved.{end}") for end in ends],
         "Tree": lambda: bh.Tree(s, threads=2),
-        "Tree.closest": lambda: tree.closest(rays, rays),
-        "Tree.occluded": lambda: tree.occluded(rays, rays),
-        "Tree.all_hits": lambda: tree.all_hits(rays, rays),
-        "Tree.nearest": lambda: tree.nearest(points),
-        "Tree.within": lambda: tree.within(points, 0.1),
-        "Tree.contains": lambda: tree.contains(points),
-        "Tree.overlaps": lambda: tree.overlaps(points, 0.1),
-        "Tree.count_within": lambda: tree.count_within(points, 0.1),
+        "Tree.closest": lambda: [tree.closest(rays, rays, **some) for some in choices] + [box.closest(rays, rays, **of_images)],
+        "Tree.occluded": lambda: [tree.occluded(rays, rays, **some) for some in choices] + [box.occluded(rays, rays, **of_images)],
+        "Tree.all_hits": lambda: [tree.all_hits(rays, rays, **some) for some in choices] + [box.all_hits(rays, rays, **of_images)],
+        "Tree.nearest": lambda: [one.nearest(points, **some) for one in (tree, box) for some in choices],
+        "Tree.within": lambda: [one.within(points, 0.1, **some) for one in (tree, box) for some in choices],
+        "Tree.contains": lambda: [tree.contains(points, **some) for some in choices],
+        "Tree.overlaps": lambda: [tree.overlaps(points, 0.1, **some) for some in choices],
+        "Tree.count_within": lambda: [one.count_within(points, 0.1, **some) for one in (tree, box) for some in choices],
         "Tree.pairs": lambda: tree.pairs(0.1),
         "Tree.update": lambda: moving.update(xyz),
         "Spheres.moved": lambda: s.moved(xyz),

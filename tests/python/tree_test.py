@@ -105,9 +105,42 @@ class Counting(unittest.TestCase):
         self.assertEqual((hits.t.tolist(), hits.id.tolist()), ([4, 4, 4, 4], [0, 1, 0, 0]))
         self.assertFalse(bh.Tree(bh.Spheres([[0.0, 0, 0]], radius=1)).occluded([-5, 0, 0], [1, 0, 0], exclude=0))
 
+    def test_periodic_rays_pass_over_the_image_nearest_to_their_origin(self):
+        box = bh.Tree(bh.Spheres([[1.0, 1, 1], [1, 3, 1]], radius=0.5, cell=[4, 4, 4]))
+        from_own = {"periodic": True, "exclude": [0, -1, 1], "t_max": 6}
+        origins = [[1.0, 1, 1], [1, 1, 1], [-400, 1, 1]]
+        hits = box.closest(origins, [1, 0, 0], **from_own)
+        # The next image of the own sphere is hit; without exclude the sphere itself, from within.
+        self.assertEqual((hits.t.tolist(), hits.id.tolist()), ([3.5, 0.5, 0.5], [0, 0, 0]))
+        self.assertEqual(box.occluded(origins, [1, 0, 0], **{**from_own, "t_max": 3}).tolist(), [False, True, True])
+        self.assertEqual(box.all_hits(origins, [1, 0, 0], **from_own).counts.tolist(), [1, 2, 2])
+        self.assertEqual(box.all_hits(origins, [1, 0, 0], k=1, **from_own).t.tolist(), [3.5, 0.5, 0.5])
+        np.testing.assert_array_equal(hits.positions()[0], [4.5, 1, 1])
+        part = box.closest([1, 1, 1], [1, 0, 0], mask=[1], exclude=0, periodic=True, t_max=6)
+        self.assertEqual(int(part.id), -1)
+
+    def test_periodic_rays_that_exclude_agree_with_the_spheres_copied(self):
+        rng = np.random.default_rng(8)
+        xyz, radius, copies = rng.uniform(0, 3, (30, 3)), rng.uniform(0.1, 0.4, 30), np.stack(np.meshgrid(*[range(-3, 4)] * 3), -1).reshape(-1, 3)
+        box = bh.Tree(bh.Spheres(xyz, radius=radius, cell=[3, 3, 3]))
+        all_xyz = (xyz + 3 * copies[:, None]).reshape(-1, 3)
+        plain = bh.Tree(bh.Spheres(all_xyz, radius=np.tile(radius, len(copies))))
+        origins, directions = rng.uniform(0, 3, (400, 3)), rng.normal(size=(400, 3))
+        directions /= np.linalg.norm(directions, axis=1)[:, None]
+        own = np.maximum(plain.closest(origins, directions, t_max=5).id, 0) % 30
+        gaps = np.abs(np.linalg.norm(origins[:, None] - all_xyz.reshape(len(copies), 30, 3)[:, own].swapaxes(0, 1), axis=-1) - radius[own][:, None])
+        image = gaps.argmin(axis=1) * 30 + own
+        given, copied = {"periodic": True, "exclude": own, "t_max": 5}, {"exclude": image, "t_max": 5}
+        hits, expected = box.closest(origins, directions, **given), plain.closest(origins, directions, **copied)
+        self.assertGreater((plain.closest(origins, directions, t_max=5).id == image).sum(), 10)
+        np.testing.assert_array_equal(hits.id, np.where(expected.id < 0, -1, expected.id % 30))
+        np.testing.assert_allclose(hits.t, expected.t, rtol=1e-5)
+        np.testing.assert_array_equal(box.occluded(origins, directions, **given), expected.id >= 0)
+        np.testing.assert_array_equal(box.all_hits(origins, directions, **given).counts, plain.all_hits(origins, directions, **copied).counts)
+
     def test_what_is_refused(self):
         box = bh.Tree(bh.Spheres([[0.5, 0, 0]], radius=0.1, cell=[10, 10, 10]))
-        for options, argument in [({"exclude": 0, "periodic": True}, "exclude"), ({"exclude": 5}, "exclude"), ({"mask": "x >"}, "mask"), ({"mask": [True, False]}, "mask")]:
+        for options, argument in [({"exclude": 5}, "exclude"), ({"mask": "x >"}, "mask"), ({"mask": [True, False]}, "mask")]:
             with self.assertRaises(bh.UsageError) as caught:
                 box.closest([0, 0, 0], [1, 0, 0], **options)
             self.assertEqual(caught.exception.argument, argument)

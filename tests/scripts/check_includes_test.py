@@ -145,6 +145,21 @@ class CheckIncludes(unittest.TestCase):
             self.assertEqual(self.offences({**header, f"src/bihive/{folder}/a.cpp": include}), [])
         self.assertTrue(self.offences({**header, "src/bihive/viewer/a.cpp": include}))
 
+    def test_header_of_rays_includes_headers_of_rays_alone(self):
+        self.one_offence({
+            "cmake/public_headers.txt": "# A comment.\n[rays]\nbihive/wide/queries.h\nbihive/wide/ray_batch.h\n\n[pictures]\nbihive/bih/tree.h\n",
+            "src/bihive/wide/queries.h": '#include "bihive/wide/ray_batch.h"\n#include "bihive/bih/tree.h"\n',
+            "src/bihive/wide/ray_batch.h": "",
+            "src/bihive/bih/tree.h": "",
+        }, "src/bihive/wide/queries.h:2: a header of [rays] must include only headers of that section, not bihive/bih/tree.h")
+
+    def test_headers_of_rays_are_few(self):
+        headers = [f"bihive/wide/h{i}.h" for i in range(26)]
+        self.one_offence({
+            "cmake/public_headers.txt": "# A comment.\n[rays]\n" + "\n".join(headers) + "\n",
+            **{f"src/{header}": "" for header in headers},
+        }, "[rays] has 26 headers; 25 are the most")
+
     def test_public_header_includes_public_headers_alone(self):
         files = {
             "cmake/public_headers.txt": "# A comment.\nbihive/wide/queries.h\nbihive/wide/wide_tree.h\n",

@@ -150,6 +150,54 @@ TEST(PeriodicRays, ARayLeavesTheImageThatItStartsOn) {
   }
 }
 
+TEST(PeriodicRays, ASphereDoesNotCountByItsImageNearestToTheOrigin) {
+  // Eighteen equal spheres, of which the tree holds one, and another one.
+  const Cell cell{{}, {Vec3d{4, 0, 0}, Vec3d{0, 4, 0}, Vec3d{0, 0, 4}}};
+  std::vector<Vec3d> centres(18, Vec3d{1, 1, 1});
+  std::vector<double> radii(18, 0.5);
+  centres.push_back({3, 1, 1}), radii.push_back(0.25);
+  const PeriodicSet set(centres, radii, cell);
+  ASSERT_FALSE(set.tree->piles.empty());
+  RayBatch rays;
+  // The sphere that does not count, and the one that is hit then: of equal ones the lowest id.
+  const std::int64_t exclude[] = {kNothing, 0, 1, 17, 18, 99, -5}, first[] = {0, 1, 0, 0, 0, 0, 0};
+  for (int i = 0; i < 7; ++i) {
+    Ray ray;
+    ray.origin = {0, 1, 1};
+    ray.direction = {1, 0, 0};
+    ray.t_max = 4;
+    rays.push_back(ray);
+  }
+  std::vector<double> t(7);
+  std::vector<std::int64_t> ids(7);
+  std::vector<RayHit> hits;
+  ASSERT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t.data(), ids.data()}, exclude), kNothing);
+  ASSERT_EQ(set.images->all_hits(*set.tree, rays.span(), hits, exclude), kNothing);
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(t[i], 0.5);
+    EXPECT_EQ(ids[i], first[i]);
+    // Number 18 is nearest to the origin by an image that the ray does not meet.
+    const bool is_met = exclude[i] >= 0 && exclude[i] < 18;
+    std::int64_t count = 0;
+    for (const RayHit& hit : hits) {
+      if (hit.ray != static_cast<std::int64_t>(i)) continue;
+      ++count;
+      EXPECT_FALSE(is_met && hit.sphere_id == exclude[i]);
+    }
+    EXPECT_EQ(count, is_met ? 18 : 19) << i;
+  }
+  // One sphere alone: its next image is hit.
+  const PeriodicSet one({Vec3d{1, 1, 1}}, {0.5}, cell);
+  const std::int64_t itself[] = {0, 0, 0, 0, 0, 0, 0};
+  std::vector<std::uint8_t> hidden(7);
+  ASSERT_EQ(one.images->occluded(*one.tree, rays.span(), hidden.data(), itself), kNothing);
+  EXPECT_EQ(hidden[0], 0);
+  for (double& end : rays.t_max) end = 5;
+  ASSERT_EQ(one.images->closest_hits(*one.tree, rays.span(), {t.data(), ids.data()}, itself), kNothing);
+  EXPECT_EQ(t[0], 4.5);
+  EXPECT_EQ(ids[0], 0);
+}
+
 TEST(PeriodicRays, ThoseWithoutAnEndAreTold) {
   const Cell cell{{}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
   const PeriodicSet set({Vec3d{0.5, 0.5, 0.5}}, {0.1}, cell);

@@ -64,6 +64,29 @@ TEST(PointQueries, SurfacesBelongToTheirSpheres) {
   EXPECT_THAT(spheres_within(*tree, PointSpan::rows(points, 4), -0.4)->sphere_id, ElementsAre(0));
 }
 
+TEST(PointQueries, ASphereOfEachPointDoesNotCount) {
+  const auto tree = tree_of({{0, 0, 0, 1}, {3, 0, 0, 1}, {3, 0, 0, 1}, {9, 0, 0, 1}});
+  const double points[] = {0, 0, 0, 3, 0, 0, 9, 0, 0};
+  const PointSpan span = PointSpan::rows(points, 3);
+  const std::int64_t own[] = {0, 1, kNothing};
+  PointOptions options;
+  options.to = DistanceTo::centre;
+  options.exclude = own;
+  EXPECT_THAT(nearest_spheres(*tree, span, 1, kInf, options)->sphere_id, ElementsAre(1, 2, 3));
+  EXPECT_THAT(nearest_spheres(*tree, span, 4, kInf, options)->sphere_id,
+              ElementsAre(1, 2, 3, kNothing, 2, 0, 3, kNothing, 3, 1, 2, 0));
+  const double limits[] = {3, 3, 6};
+  const auto near = spheres_within(*tree, span, limits, options);
+  ASSERT_TRUE(near.ok());
+  EXPECT_THAT(near->begin, ElementsAre(0, 2, 4, 7));
+  EXPECT_THAT(near->sphere_id, ElementsAre(1, 2, 0, 2, 1, 2, 3));
+  EXPECT_THAT(count_within(*tree, span, limits, options).value(), ElementsAre(2, 2, 3));
+  // Together with a mask.
+  const std::uint8_t mask[] = {1, 1, 0, 1};
+  options.mask = mask;
+  EXPECT_THAT(nearest_spheres(*tree, span, 1, kInf, options)->sphere_id, ElementsAre(1, 0, 3));
+}
+
 TEST(PointQueries, AMaskHidesSpheresOfAPileToo) {
   std::vector<std::vector<double>> pile(40, {1, 1, 1, 1});
   pile.push_back({9, 1, 1, 1});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bihive/math/infinity.h"
 #include "bihive/wide/wide_builder.h"
 #include "support/scenes.h"
 

@@ -19,7 +19,7 @@ class Entry {
   private readonly words = document.createElement('p');
   private readonly bar = document.createElement('progress');
   private readonly close = document.createElement('button');
-  drawn = ''; // "drawn by bihive 0.1.0 from 1hpv.pdb"
+  drawn = ''; // "drawn by bihive 0.2.0 from 1hpv.pdb"
 
   constructor(
     readonly figure: NamedBlob,

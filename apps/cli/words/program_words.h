@@ -34,7 +34,7 @@ struct CommandWords {
 struct ProgramWords {
   CommandWords program;
   std::vector<CommandWords> commands;
-  std::string version;  ///< "0.1.0"
+  std::string version;  ///< "0.2.0"
 };
 
 /// The manual page of the program (`command` empty) or of a command, for man(1). An unknown command has none: "".

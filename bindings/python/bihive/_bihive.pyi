@@ -99,6 +99,7 @@ class Tree:
         t_max: Optional[_Array],
         leaves: Optional[_Array],
         inside: Optional[_Array],
+        exclude: Optional[_Array],
         see_images: bool,
         in_blocks: bool,
     ) -> tuple[_Array, _Array]: ...
@@ -110,6 +111,7 @@ class Tree:
         t_max: Optional[_Array],
         leaves: Optional[_Array],
         inside: Optional[_Array],
+        exclude: Optional[_Array],
         see_images: bool,
         in_blocks: bool,
     ) -> _Array: ...
@@ -121,6 +123,7 @@ class Tree:
         t_max: Optional[_Array],
         leaves: Optional[_Array],
         inside: Optional[_Array],
+        exclude: Optional[_Array],
         see_images: bool,
     ) -> tuple[_Array, _Array, _Array]: ...
     def surfaces(
@@ -134,12 +137,12 @@ class Tree:
         with_derivatives: bool,
     ) -> tuple[_Array, ...]: ...
     def nearest(
-        self, points: _Array, k: int, within: float, mask: Optional[_Array], to_centre: bool
+        self, points: _Array, k: int, within: float, mask: Optional[_Array], exclude: Optional[_Array], to_centre: bool
     ) -> tuple[_Array, _Array]: ...
     def within(
-        self, points: _Array, limits: _Array, mask: Optional[_Array], to_centre: bool
+        self, points: _Array, limits: _Array, mask: Optional[_Array], exclude: Optional[_Array], to_centre: bool
     ) -> tuple[_Array, _Array, _Array]: ...
-    def count_within(self, points: _Array, limits: _Array, mask: Optional[_Array], to_centre: bool) -> _Array: ...
+    def count_within(self, points: _Array, limits: _Array, mask: Optional[_Array], exclude: Optional[_Array], to_centre: bool) -> _Array: ...
     def pairs(self, reach: float, mask: Optional[_Array], to_centre: bool) -> tuple[_Array, _Array, _Array]: ...
 
 class FilmFile:

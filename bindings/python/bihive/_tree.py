@@ -173,8 +173,8 @@ class Tree:
         periodic: rays meet the images of the spheres too, as positions of their spheres.
         mask: only these spheres count: an expression, a mask of shape (n,), or positions. The first query with a mask builds a
             tree of them, which is kept until another mask comes, so that rays are as fast as those of Tree(..., select=mask).
-        exclude: a sphere that does not count, one or one for each ray; -1: none. Not of periodic rays. Rays that would hit it
-            are traced twice.
+        exclude: a sphere that does not count, one or one for each ray; -1: none. Of its images, the one whose surface is
+            nearest to the origin. Rays that would hit it are traced twice.
         order: "blocks" if each 64 neighbours are close to each other, as 8 x 8 pixels are: faster. The answers do not change.
 
         Other Python threads run meanwhile, and Ctrl-C ends it. Error: UsageError for a periodic ray that passes 16,384
@@ -186,11 +186,11 @@ class Tree:
             )
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images, in_blocks = self._images(periodic), _in_blocks(order)
-        own = self._own_of_rays(exclude, shape, images)
+        own = self._own_of_rays(exclude, shape)
         core = self._core
         try:
-            t, ids = core.closest(*rays, images, in_blocks)
-            if own is not None:
+            t, ids = core.closest(*rays, own if images else None, images, in_blocks)
+            if own is not None and not images:
                 _pass_over(core, rays, own, t, ids)
         except InputError as error:
             raise _of_t_max(error) from None
@@ -217,15 +217,14 @@ class Tree:
             return self._counting(mask).occluded(
                 origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, order=order
             )
-        if exclude is not None:
-            hits = self.closest(
-                origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, order=order
-            )
+        images, in_blocks = self._images(periodic), _in_blocks(order)
+        if exclude is not None and not images:
+            hits = self.closest(origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, exclude=exclude, order=order)
             return np.asarray(hits.id >= 0)[()]
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
-        images, in_blocks = self._images(periodic), _in_blocks(order)
+        own = self._own_of_rays(exclude, shape)
         try:
-            hidden = self._core.occluded(*rays, images, in_blocks)
+            hidden = self._core.occluded(*rays, own, images, in_blocks)
         except InputError as error:
             raise _of_t_max(error) from None
         made: Booleans = hidden.reshape(shape)[()]
@@ -255,14 +254,14 @@ class Tree:
             )
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         images = self._images(periodic)
-        own = self._own_of_rays(exclude, shape, images)
+        own = self._own_of_rays(exclude, shape)
         most = None if k is None else _count_of(k)
         core = self._core
         try:
-            ray, t, ids = core.all_hits(*rays, images)
+            ray, t, ids = core.all_hits(*rays, own if images else None, images)
         except InputError as error:
             raise _of_t_max(error) from None
-        if own is not None:
+        if own is not None and not images:
             others = ids != own[ray]
             ray, t, ids = ray[others], t[others], ids[others]
         begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
@@ -312,12 +311,10 @@ class Tree:
             raise bad_argument("within", "expected a number, found NaN")
         own = self._own(exclude, shape)
         try:
-            distance, ids = self._core.nearest(where, wanted + (own is not None), most, self._mask(mask), _to_centre(to))
+            distance, ids = self._core.nearest(where, wanted, most, self._mask(mask), own, _to_centre(to))
         except InputError:
             _check_points(where)
             raise
-        if own is not None:
-            distance, ids = _without_own(distance, ids, own)
         ids = self._positions(ids)
         if wanted == 1:
             return distance.reshape(shape)[()], ids.reshape(shape)[()]
@@ -342,10 +339,8 @@ class Tree:
         """
         where, shape = _points(points)
         most, own = _limits(limits, shape), self._own(exclude, shape)
-        if own is not None:
-            return self._within("limits", where, most, to, mask, own).counts.reshape(shape)[()]
         try:
-            counts = self._core.count_within(where, most, self._mask(mask), _to_centre(to))
+            counts = self._core.count_within(where, most, self._mask(mask), own, _to_centre(to))
         except InputError as error:
             raise self._of_points("limits", where, error) from None
         made: Ids = counts.reshape(shape)[()]
@@ -396,11 +391,9 @@ class Tree:
 
     def _within(self, name: str, where: Array, most: Array, to: str, mask: Any, own: Optional[Array]) -> Near:
         try:
-            begin, ids, distance = self._core.within(where, most, self._mask(mask), _to_centre(to))
+            begin, ids, distance = self._core.within(where, most, self._mask(mask), own, _to_centre(to))
         except InputError as error:
             raise self._of_points(name, where, error) from None
-        if own is not None:
-            begin, ids, distance = _lists_without_own(begin, ids, distance, own)
         return Near(begin, self._positions(ids), distance)
 
     def _of_points(self, name: str, where: Array, error: InputError) -> Error:
@@ -420,11 +413,9 @@ class Tree:
         if exclude is None:
             return None
         given = whole_numbers("exclude", exclude, None, -1, max(len(self._spheres) - 1, 0))
-        return self._in_part(in_a_row("exclude", given, shape).astype(np.int64))
+        return np.ascontiguousarray(self._in_part(in_a_row("exclude", given, shape).astype(np.int64)))
 
-    def _own_of_rays(self, exclude: Any, shape: Shape, images: bool) -> Optional[Array]:
-        if exclude is not None and images:
-            raise bad_argument("exclude", "is not for periodic rays: a sphere has many images", "leaves names one on whose surface a ray starts")
+    def _own_of_rays(self, exclude: Any, shape: Shape) -> Optional[Array]:
         own = self._own(exclude, shape)
         # A sphere outside of the tree is hit by no ray, and neither is this number.
         return None if own is None else np.where(own >= 0, own, -2)
@@ -511,30 +502,11 @@ def _pass_over(core: _bihive.Tree, rays: Rays, own: Array, t: Array, ids: Array)
     if again.size == 0:
         return
     t_min, t_max, leaves, inside = (None if one is None else np.ascontiguousarray(one[again]) for one in rays[2:])
-    ray, t_of_all, id_of_all = core.all_hits(rays[0][again], rays[1][again], t_min, t_max, leaves, inside, False)
+    ray, t_of_all, id_of_all = core.all_hits(rays[0][again], rays[1][again], t_min, t_max, leaves, inside, None, False)
     others = id_of_all != own[again][ray]
     hit, first = np.unique(ray[others], return_index=True)
     t[again], ids[again] = np.inf, -1
     t[again[hit]], ids[again[hit]] = t_of_all[others][first], id_of_all[others][first]
-
-
-def _without_own(distance: Array, ids: Array, own: Array) -> tuple[Array, Array]:
-    """Of (n, k + 1) answers in order of distance the first k without each point's own sphere, which counts once."""
-    is_own = ids == np.where(own < 0, -2, own)[:, None]
-    left_out = np.where(is_own.any(axis=1), is_own.argmax(axis=1), ids.shape[1] - 1)
-    stays = np.arange(ids.shape[1]) != left_out[:, None]
-    shape = (len(ids), ids.shape[1] - 1)
-    return distance[stays].reshape(shape), ids[stays].reshape(shape)
-
-
-def _lists_without_own(begin: Array, ids: Array, distance: Array, own: Array) -> tuple[Array, Array, Array]:
-    """The same of lists in order of positions, then distance."""
-    point = np.repeat(np.arange(len(own)), np.diff(begin))
-    is_own = ids == own[point]
-    is_own[1:] &= ~((ids[1:] == ids[:-1]) & (point[1:] == point[:-1]))  # leave out only the nearest image
-    stays = ~is_own
-    counts = np.diff(begin) - np.bincount(point[is_own], minlength=len(own))
-    return np.concatenate([[0], np.cumsum(counts)]), ids[stays], distance[stays]
 
 
 def _points(points: Any) -> tuple[Array, Shape]:

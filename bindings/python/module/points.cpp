@@ -26,7 +26,8 @@ constexpr std::int64_t kPointsBetweenLooks = 65536;
 
 using Points = py::array_t<double, py::array::c_style>;  // (n, 3)
 
-using Mask = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;  // a byte for each sphere of the tree
+using Mask = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;     // a byte for each sphere of the tree
+using Exclude = std::optional<py::array_t<std::int64_t, py::array::c_style>>;  // a sphere, or -1, for each point
 
 PointOptions options_of(const RayTree& tree, const Mask& mask, bool to_centre) {
   PointOptions options;
@@ -34,6 +35,12 @@ PointOptions options_of(const RayTree& tree, const Mask& mask, bool to_centre) {
   options.mask = mask ? mask->data() : nullptr;
   options.threads = tree.threads;
   if (tree.images) options.images = &*tree.images;
+  return options;
+}
+
+// For the points of a piece that begins with number `first`.
+PointOptions without_own(PointOptions options, const Exclude& exclude, std::int64_t first) {
+  if (exclude) options.exclude = exclude->data() + first;
   return options;
 }
 
@@ -53,7 +60,7 @@ void answer_in_pieces(const Points& points, const Answer& answer) {
 
 // Distances and positions, (n, k) each.
 py::tuple nearest(const RayTree& tree, const Points& points, std::int64_t k, double within, const Mask& mask,
-                  bool to_centre) {
+                  const Exclude& exclude, bool to_centre) {
   const WideTree& wide = wide_tree_for(tree, "nearest");
   const PointOptions options = options_of(tree, mask, to_centre);
   py::array_t<double> distance({points.shape(0), static_cast<py::ssize_t>(k)});
@@ -61,7 +68,7 @@ py::tuple nearest(const RayTree& tree, const Points& points, std::int64_t k, dou
   double* const to_distance = distance.mutable_data();
   std::int64_t* const to_id = id.mutable_data();
   answer_in_pieces(points, [&](const PointSpan& span, std::int64_t first) {
-    const NearestSpheres found = value_of(nearest_spheres(wide, span, k, within, options));
+    const NearestSpheres found = value_of(nearest_spheres(wide, span, k, within, without_own(options, exclude, first)));
     std::copy(found.distance.begin(), found.distance.end(), to_distance + first * k);
     std::copy(found.sphere_id.begin(), found.sphere_id.end(), to_id + first * k);
   });
@@ -69,13 +76,15 @@ py::tuple nearest(const RayTree& tree, const Points& points, std::int64_t k, dou
 }
 
 // For each point the index of its first sphere, and the end of all; positions; distances.
-py::tuple within(const RayTree& tree, const Points& points, const Points& limits, const Mask& mask, bool to_centre) {
+py::tuple within(const RayTree& tree, const Points& points, const Points& limits, const Mask& mask,
+                 const Exclude& exclude, bool to_centre) {
   const WideTree& wide = wide_tree_for(tree, "within");
   const PointOptions options = options_of(tree, mask, to_centre);
   SphereLists all;
   all.begin.push_back(0);
   answer_in_pieces(points, [&](const PointSpan& span, std::int64_t first) {
-    const SphereLists some = value_of(spheres_within(wide, span, limits.data() + first, options));
+    const SphereLists some =
+        value_of(spheres_within(wide, span, limits.data() + first, without_own(options, exclude, first)));
     const auto before = static_cast<std::int64_t>(all.sphere_id.size());
     for (std::size_t i = 1; i < some.begin.size(); ++i) all.begin.push_back(before + some.begin[i]);
     all.sphere_id.insert(all.sphere_id.end(), some.sphere_id.begin(), some.sphere_id.end());
@@ -89,13 +98,14 @@ py::tuple within(const RayTree& tree, const Points& points, const Points& limits
 
 // For each point the number of its spheres.
 py::array_t<std::int64_t> count_near(const RayTree& tree, const Points& points, const Points& limits, const Mask& mask,
-                                     bool to_centre) {
+                                     const Exclude& exclude, bool to_centre) {
   const WideTree& wide = wide_tree_for(tree, "count_within");
   const PointOptions options = options_of(tree, mask, to_centre);
   py::array_t<std::int64_t> counts(points.shape(0));
   std::int64_t* const to = counts.mutable_data();
   answer_in_pieces(points, [&](const PointSpan& span, std::int64_t first) {
-    const std::vector<std::int64_t> found = value_of(count_within(wide, span, limits.data() + first, options));
+    const std::vector<std::int64_t> found =
+        value_of(count_within(wide, span, limits.data() + first, without_own(options, exclude, first)));
     std::copy(found.begin(), found.end(), to + first);
   });
   return counts;

@@ -37,6 +37,10 @@ constexpr std::int64_t kPiecesPerThread = 4;
 // Brute force tests in a piece: well below a second.
 constexpr std::int64_t kMostTests = std::int64_t{1} << 25;
 
+// The calling thread builds a tree of so few spheres, in a millisecond or two: another thread takes as long to start as
+// a tree of a thousand.
+constexpr std::int64_t kFewSpheres = 16384;
+
 // Columns of Python's arrays, each of `count` numbers. `leaves` and `inside` are null or contiguous.
 struct RayArrays {
   std::int64_t count = 0;
@@ -171,6 +175,11 @@ RayArrays rays_from(const py::array& origin, const py::array& direction, const s
   return rays;
 }
 
+// `exclude`: for each ray the sphere that does not count. Only rays that see images leave it to the library.
+const std::int64_t* excluded_from(const std::optional<py::array_t<std::int64_t>>& exclude, std::int64_t first) {
+  return exclude ? exclude->data() + first : nullptr;
+}
+
 RayOrder order_of(bool in_blocks) {
   return in_blocks ? RayOrder::blocks : RayOrder::any;
 }
@@ -178,7 +187,8 @@ RayOrder order_of(bool in_blocks) {
 py::tuple closest(const RayTree& tree, const py::array& origin, const py::array& direction,
                   const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                   const std::optional<py::array_t<std::int64_t>>& leaves,
-                  const std::optional<py::array_t<std::uint8_t>>& inside, bool see_images, bool in_blocks) {
+                  const std::optional<py::array_t<std::uint8_t>>& inside,
+                  const std::optional<py::array_t<std::int64_t>>& exclude, bool see_images, bool in_blocks) {
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
   py::array_t<double> t(rays.count);
   py::array_t<std::int64_t> id(rays.count);
@@ -190,7 +200,8 @@ py::tuple closest(const RayTree& tree, const py::array& origin, const py::array&
     if (periodic == nullptr)
       tree.tracer->closest_hits(span, order, hits.part(first));
     else if (!without_end.is_before(first))
-      without_end.take(first, tree.images->closest_hits(*periodic, span, hits.part(first)));
+      without_end.take(first,
+                       tree.images->closest_hits(*periodic, span, hits.part(first), excluded_from(exclude, first)));
   });
   value_of(without_end.status());
   return py::make_tuple(t, id);
@@ -199,7 +210,8 @@ py::tuple closest(const RayTree& tree, const py::array& origin, const py::array&
 py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const py::array& direction,
                            const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                            const std::optional<py::array_t<std::int64_t>>& leaves,
-                           const std::optional<py::array_t<std::uint8_t>>& inside, bool see_images, bool in_blocks) {
+                           const std::optional<py::array_t<std::uint8_t>>& inside,
+                           const std::optional<py::array_t<std::int64_t>>& exclude, bool see_images, bool in_blocks) {
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
   py::array_t<bool> hidden(rays.count);
   static_assert(sizeof(bool) == sizeof(std::uint8_t));
@@ -211,7 +223,7 @@ py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const p
     if (periodic == nullptr)
       tree.tracer->occluded(span, order, to + first);
     else if (!without_end.is_before(first))
-      without_end.take(first, tree.images->occluded(*periodic, span, to + first));
+      without_end.take(first, tree.images->occluded(*periodic, span, to + first, excluded_from(exclude, first)));
   });
   value_of(without_end.status());
   return hidden;
@@ -221,7 +233,8 @@ py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const p
 py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::array& direction,
                     const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                     const std::optional<py::array_t<std::int64_t>>& leaves,
-                    const std::optional<py::array_t<std::uint8_t>>& inside, bool see_images) {
+                    const std::optional<py::array_t<std::uint8_t>>& inside,
+                    const std::optional<py::array_t<std::int64_t>>& exclude, bool see_images) {
   const WideTree* const periodic = tree_of_images(tree, see_images);
   const WideTree& wide = wide_tree_for(tree, "all_hits");
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
@@ -233,7 +246,7 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
     if (periodic == nullptr)
       all_hits(wide, span, found);
     else if (!without_end.is_before(first))
-      without_end.take(first, tree.images->all_hits(wide, span, found));
+      without_end.take(first, tree.images->all_hits(wide, span, found, excluded_from(exclude, first)));
     for (RayHit& hit : found) hit.ray += first;
   });
   value_of(without_end.status());
@@ -341,21 +354,29 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
   const Engine engine = structure_of(options.engine);
   auto tree = std::make_shared<RayTree>();
   tree->threads = static_cast<int>(options.threads);
-  wait_for(
-      [&](Work& work) {
-        tree->spheres = spheres;
-        if (part) {
-          auto some = std::make_shared<Spheres>();
-          some->file.spheres = spheres->file.spheres.part(*part);
-          tree->spheres = std::move(some);
-        }
-        const SphereSet& set = tree->spheres->file.spheres;
-        value_of(check_tree_memory(set, engine, options.tree));
-        const Watch watch(work.between(0, 1), &work.cancel);
-        tree->tracer = value_of(Tracer::build(set, engine, options.tree, tree->threads));
-        if (periodic && !set.has_images()) tree->images = value_of(PeriodicImages::of(set, tree->threads));
-      },
-      progress);
+  const auto build = [&](Work& work) {
+    tree->spheres = spheres;
+    if (part) {
+      auto some = std::make_shared<Spheres>();
+      some->file.spheres = spheres->file.spheres.part(*part);
+      tree->spheres = std::move(some);
+    }
+    const SphereSet& set = tree->spheres->file.spheres;
+    value_of(check_tree_memory(set, engine, options.tree));
+    const Watch watch(work.between(0, 1), &work.cancel);
+    tree->tracer = value_of(Tracer::build(set, engine, options.tree, tree->threads));
+    if (periodic && !set.has_images()) tree->images = value_of(PeriodicImages::of(set, tree->threads));
+  };
+  if (spheres->file.spheres.size() > kFewSpheres) {
+    wait_for(build, progress);
+    return tree;
+  }
+  {
+    const py::gil_scoped_release unlocked;
+    Work work;
+    build(work);
+  }
+  if (!progress.is_none()) progress(1.0);
   return tree;
 }
 

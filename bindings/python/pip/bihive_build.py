@@ -67,15 +67,20 @@ def record_line(name, data):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """PEP 517: a wheel in the directory; returns its name."""
-    name = f"bihive-{version()}-{tag()}.whl"
-    about = f"bihive-{version()}.dist-info"
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         program = build(folder)
         files = [(path.relative_to(folder).as_posix(), path.read_bytes()) for path in sorted(folder.rglob("*")) if path.is_file()]
         files.append((f"bihive-{version()}.data/scripts/bihive", program.read_bytes()))
+    return pack(files, wheel_directory, tag())
+
+
+def pack(files, wheel_directory, its_tag):
+    """Writes a wheel of these (path, bytes) and what describes it; returns its name."""
+    name = f"bihive-{version()}-{its_tag}.whl"
+    about = f"bihive-{version()}.dist-info"
     files.append((f"{about}/METADATA", metadata().encode()))
-    files.append((f"{about}/WHEEL", f"Wheel-Version: 1.0\nGenerator: bihive_build\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode()))
+    files.append((f"{about}/WHEEL", f"Wheel-Version: 1.0\nGenerator: bihive_build\nRoot-Is-Purelib: false\nTag: {its_tag}\n".encode()))
     files.append((f"{about}/LICENSE", (TOP / "LICENSE").read_bytes()))
     record = [record_line(path, data) for path, data in files] + [f"{about}/RECORD,,", ""]
     files.append((f"{about}/RECORD", "\n".join(record).encode()))
@@ -83,7 +88,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         for path, data in files:
             entry = zipfile.ZipInfo(path)
             entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = (0o100755 if "/scripts/" in path or path.endswith(".so") else 0o100644) << 16
+            entry.external_attr = (0o100755 if "/scripts/" in path or "/bin/" in path or path.endswith(".so") else 0o100644) << 16
             wheel.writestr(entry, data)
     return name
 

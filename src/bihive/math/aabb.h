@@ -2,15 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
-#include "bihive/math/infinity.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
 
 struct Aabb {
-  Vec3f lo{kInfiniteFloat, kInfiniteFloat, kInfiniteFloat};  ///< the empty box until something is added
-  Vec3f hi{-kInfiniteFloat, -kInfiniteFloat, -kInfiniteFloat};
+  static constexpr float kNone = std::numeric_limits<float>::infinity();
+  Vec3f lo{kNone, kNone, kNone};  ///< the empty box until something is added
+  Vec3f hi{-kNone, -kNone, -kNone};
 
   bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
   void add(const Aabb& other) {

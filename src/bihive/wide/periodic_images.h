@@ -13,12 +13,12 @@
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere_set.h"
-#include "bihive/math/interval.h"
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/wide_tree.h"
 
 namespace bihive {
 
+struct Interval;
 namespace wide {
 struct NearSphere;
 struct PointQuestion;
@@ -46,10 +46,16 @@ class PeriodicImages {
   /// other image that a ray meets is traversed on its own. Hits on an image have the id of its sphere, so all_hits()
   /// may return an id several times. A ray exits the image of `leaves` whose surface is nearest to the ray's origin.
   /// Returns kNothing, or the first ray without an answer: ray_without_end().
+  ///
+  /// `exclude`: null, or for each ray a sphere that does not count, kNothing for none: of its images, the one whose
+  /// surface is nearest to the ray's origin. Rays that would hit it are traced again.
 
-  std::int64_t closest_hits(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) const;
-  std::int64_t occluded(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) const;
-  std::int64_t all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) const;
+  std::int64_t closest_hits(const WideTree& tree, const RaySpan& rays, const HitSpan& hits,
+                            const std::int64_t* exclude = nullptr) const;
+  std::int64_t occluded(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden,
+                        const std::int64_t* exclude = nullptr) const;
+  std::int64_t all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits,
+                        const std::int64_t* exclude = nullptr) const;
 
   /// Cells that a ray passes along one vector, at most. Then it must have hit something, or have left the images of a
   /// set that is not periodic along all three vectors, or be at its t_max.
@@ -87,7 +93,7 @@ class PeriodicImages {
 
   template <class LookAt>
   void each_image_near(Vec3d point, std::int64_t id, const LookAt& look_at) const;
-  void set_left_image(const Ray& ray, ScaledRay& scaled) const;
+  std::optional<Vec3d> image_by_surface(Vec3d point, std::int64_t id) const;
   Interval near_spheres(const ScaledRay& ray) const;
   Interval in_image(const ScaledRay& ray, Vec3d share, Vec3d speed, const ImageCounts& counts) const;
   template <class Answer>

@@ -45,6 +45,9 @@ struct PointOptions {
   const std::uint8_t* mask = nullptr;      ///< a byte for each sphere of the tree, by id: 0 passes over it. Null: all
   int threads = 0;                         ///< 0: all
   const PeriodicImages* images = nullptr;  ///< of the tree's set (wide/periodic_images.h). Null: the spheres alone
+  /// For each point a sphere that does not count, such as the point's own; kNothing: none. Of its images, the nearest.
+  /// Null: all count. Not for sphere_pairs(), whose pairs are those of two spheres.
+  const std::int64_t* exclude = nullptr;
 };
 
 /// `per_point` entries for each point, ordered by distance, then id. With fewer spheres, the rest are +inf and

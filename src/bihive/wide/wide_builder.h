@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "bihive/base/result.h"
-#include "bihive/bih/tree.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/wide/wide_tree.h"
 

@@ -17,6 +17,7 @@
 
 #include <hwy/highway.h>
 
+#include "bihive/math/infinity.h"
 #include "bihive/wide/build/binary_tree.h"
 #include "bihive/wide/build/bounds-inl.h"
 

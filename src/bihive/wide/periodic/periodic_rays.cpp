@@ -42,13 +42,42 @@ Vec3d across(const Lattice& lattice, Vec3d vector) {
   return vector;
 }
 
+// The sphere that does not count for a ray, by one of its images.
+struct PassedOver {
+  std::int64_t id = kNothing;
+  std::int64_t in_tree = kNothing;  // the sphere of the tree that stands for it: itself, or the first of its pile
+  std::int64_t twin = kNothing;     // the first of its pile that is another one
+  Vec3d centre;                     // of the image, in stored units
+
+  PassedOver() = default;
+  PassedOver(const WideTree& tree, std::int64_t sphere) {
+    if (sphere < 0 || sphere >= tree.size) return;
+    id = in_tree = sphere;
+    for (const Pile& pile : tree.piles) {
+      const auto others = tree.others_in_piles.begin();
+      const auto first = others + static_cast<std::ptrdiff_t>(pile.first_other);
+      const auto last = others + static_cast<std::ptrdiff_t>(pile.end_of_others);
+      if (pile.id != sphere && std::find(first, last, sphere) == last) continue;
+      in_tree = pile.id;
+      twin = pile.id != sphere ? pile.id : *first;
+    }
+  }
+};
+
 struct AllHitsOfRay {
   std::int64_t ray;
   std::vector<RayHit>& hits;
+  PassedOver passed_over;
+  double t_of_passed_over = kInfinity;
 
   bool take(double t, std::int64_t id) const {
     if (t < limit()) hits.push_back({ray, t, id});
     return false;
+  }
+  // It is removed when those of its pile are known.
+  bool take_passed_over(double t) {
+    t_of_passed_over = t;
+    return take(t, passed_over.in_tree);
   }
   static constexpr double limit() { return kInfinity; }
   static constexpr bool has_ended() { return false; }
@@ -57,6 +86,9 @@ struct AllHitsOfRay {
 
 template <bool kAnyHit>
 struct NearestOfRay : NearestAnswer<kAnyHit> {
+  PassedOver passed_over;
+
+  bool take_passed_over(double t) { return passed_over.twin != kNothing && this->take(t, passed_over.twin); }
   bool has_ended() const { return kAnyHit && this->best.found(); }
   static constexpr bool kNeedsEnd = false;
 };
@@ -72,13 +104,16 @@ struct ImageTest {
   double limit() const { return answer.limit(); }
   bool operator()(std::int64_t slot) const {
     const Vec3d centre = tree.spheres.centre(slot) + shift;
-    return answer.take(sphere_hit(ray, centre, tree.spheres.radius(slot)), tree.spheres.id(slot));
+    const std::int64_t id = tree.spheres.id(slot);
+    const double t = sphere_hit(ray, centre, tree.spheres.radius(slot));
+    const PassedOver& passed_over = answer.passed_over;
+    if (id == passed_over.in_tree && centre == passed_over.centre) return answer.take_passed_over(t);
+    return answer.take(t, id);
   }
 };
 
 }  // namespace
 
-// Finds the image that the ray exits: the one of `leaves` whose surface is nearest to the ray's origin.
 // Calls look_at(centre, radius) for the images of sphere `id` whose surfaces may be near the point, until it returns
 // true; stored units.
 template <class LookAt>
@@ -94,18 +129,20 @@ void PeriodicImages::each_image_near(Vec3d point, std::int64_t id, const LookAt&
             [&](const ImageCounts& counts) { return look_at(own + lattice_.shift(counts), radius); });
 }
 
-void PeriodicImages::set_left_image(const Ray& ray, ScaledRay& scaled) const {
-  if (ray.leaves < 0 || ray.leaves >= static_cast<std::int64_t>(x_.size())) return;
+// The centre of the image of sphere `id` whose surface is nearest to the point. Nothing: there is no such sphere.
+std::optional<Vec3d> PeriodicImages::image_by_surface(Vec3d point, std::int64_t id) const {
+  std::optional<Vec3d> found;
+  if (id < 0 || id >= static_cast<std::int64_t>(x_.size())) return found;
   double nearest = kInfinity;
-  each_image_near(scaled.origin, ray.leaves, [&](Vec3d centre, double radius) {
-    const double distance = std::abs(length(scaled.origin - centre) - radius);
+  each_image_near(point, id, [&](Vec3d centre, double radius) {
+    const double distance = std::abs(length(point - centre) - radius);
     if (distance < nearest) {
       nearest = distance;
-      scaled.left_centre = centre;
-      scaled.left_radius = radius;
+      found = centre;
     }
     return false;
   });
+  return found;
 }
 
 std::optional<Vec3d> PeriodicImages::image_of_hit(const ScaledRay& ray, double t, std::int64_t id) const {
@@ -186,7 +223,14 @@ bool PeriodicImages::trace(const WideTree& tree, const Ray& ray, bool is_stored_
   const Vec3d share = lattice_.shares(scaled.origin);
   const Vec3d speed = lattice_.shares(scaled.direction);
   if (largest_coordinate(share) > kFarthestStart || part.t_near == -kInfinity) return false;
-  set_left_image(ray, scaled);
+  if (const std::optional<Vec3d> left = image_by_surface(scaled.origin, ray.leaves)) {
+    scaled.left_centre = *left;
+    scaled.left_radius = double(r_[static_cast<std::size_t>(ray.leaves)]);
+  }
+  if (const std::optional<Vec3d> own = image_by_surface(scaled.origin, answer.passed_over.id))
+    answer.passed_over.centre = *own;
+  else
+    answer.passed_over = {};
 
   // Windows along the ray.
   const double fastest = largest_coordinate(speed);
@@ -231,12 +275,15 @@ bool PeriodicImages::trace(const WideTree& tree, const Ray& ray, bool is_stored_
 // The stored spheres are asked first, all rays at once. That does not help rays that leave a sphere: it may be an
 // image's.
 
-std::int64_t PeriodicImages::closest_hits(const WideTree& tree, const RaySpan& rays, const HitSpan& hits) const {
+std::int64_t PeriodicImages::closest_hits(const WideTree& tree, const RaySpan& rays, const HitSpan& hits,
+                                          const std::int64_t* exclude) const {
   bihive::closest_hits(tree, rays, RayOrder::any, hits);
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const Ray ray = rays.at(i);
     NearestOfRay<false> nearest;
-    const bool is_known = ray.leaves < 0;
+    if (exclude != nullptr) nearest.passed_over = PassedOver(tree, exclude[i]);
+    const bool is_passed_over = hits.t[i] < kInfinity && hits.sphere_id[i] == nearest.passed_over.id;
+    const bool is_known = ray.leaves < 0 && !is_passed_over;
     if (is_known) nearest.best = {hits.t[i], hits.sphere_id[i]};
     if (!trace(tree, ray, is_known, nearest)) return i;
     hits.t[i] = nearest.best.t;
@@ -245,26 +292,35 @@ std::int64_t PeriodicImages::closest_hits(const WideTree& tree, const RaySpan& r
   return kNothing;
 }
 
-std::int64_t PeriodicImages::occluded(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) const {
+std::int64_t PeriodicImages::occluded(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden,
+                                      const std::int64_t* exclude) const {
   bihive::occluded(tree, rays, RayOrder::any, hidden);
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const Ray ray = rays.at(i);
-    const bool is_known = ray.leaves < 0;
-    if (is_known && hidden[i] != 0) continue;
     NearestOfRay<true> nearest;
+    if (exclude != nullptr) nearest.passed_over = PassedOver(tree, exclude[i]);
+    // What hides the ray may be the sphere that does not count.
+    const bool is_known = ray.leaves < 0 && (hidden[i] == 0 || nearest.passed_over.id == kNothing);
+    if (is_known && hidden[i] != 0) continue;
     if (!trace(tree, ray, is_known, nearest)) return i;
     hidden[i] = nearest.best.found() ? 1 : 0;
   }
   return kNothing;
 }
 
-std::int64_t PeriodicImages::all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) const {
+std::int64_t PeriodicImages::all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits,
+                                      const std::int64_t* exclude) const {
   hits.clear();
   for (std::int64_t i = 0; i < rays.count; ++i) {
     const std::size_t first = hits.size();
-    AllHitsOfRay all{i, hits};
+    AllHitsOfRay all{i, hits, {}};
+    if (exclude != nullptr) all.passed_over = PassedOver(tree, exclude[i]);
     if (!trace(tree, rays.at(i), false, all)) return i;
     add_duplicates(tree, first, hits);
+    if (all.t_of_passed_over < kInfinity)
+      hits.erase(std::find_if(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(), [&](const RayHit& hit) {
+        return hit.t == all.t_of_passed_over && hit.sphere_id == all.passed_over.id;
+      }));
     std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
               [](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : a.sphere_id < b.sphere_id; });
   }

@@ -96,14 +96,32 @@ bool is_before_by_id(const NearSphere& a, const NearSphere& b) {
   return a.id != b.id ? a.id < b.id : a.distance < b.distance;
 }
 
-// Appends what is near a point, all in stored units, in any order.
-void find_near(const WideTree& tree, Vec3d point, double limit, const PointOptions& options,
+// Appends what is near point i, all in stored units, in any order.
+void find_near(const WideTree& tree, const PointSpan& points, std::int64_t i, double limit, const PointOptions& options,
                std::vector<NearSphere>& found) {
-  const PointQuestion question{point, limit, options.to, options.mask};
+  const PointQuestion question{tree.stored(points.at(i)), limit, options.to, options.mask};
+  const auto first = static_cast<std::ptrdiff_t>(found.size());
   if (options.images != nullptr)
     options.images->find_within(tree, question, found);
   else
     find_within(tree, question, found);
+  if (options.exclude == nullptr || options.exclude[i] < 0) return;
+  // Of several images the nearest is left out.
+  auto own = found.end();
+  for (auto one = found.begin() + first; one != found.end(); ++one)
+    if (one->id == options.exclude[i] && (own == found.end() || one->distance < own->distance)) own = one;
+  if (own != found.end()) found.erase(own);
+}
+
+// Leaves out the nearest image of a sphere among `count` answers in order. Returns how many are left, at most `most`.
+std::int64_t leave_out(NearSphere* nearest, std::int64_t count, std::int64_t sphere, std::int64_t most) {
+  NearSphere* const end = nearest + count;
+  NearSphere* const own = std::find_if(nearest, end, [&](const NearSphere& one) { return one.id == sphere; });
+  if (own != end) {
+    std::copy(own + 1, end, own);
+    --count;
+  }
+  return std::min(count, most);
 }
 
 // limit(i) is that of point i, in world units.
@@ -126,7 +144,7 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
           const std::size_t known = here.size();
-          find_near(tree, tree.stored(points.at(i)), limit(i) * tree.scale, options, here);
+          find_near(tree, points, i, limit(i) * tree.scale, options, here);
           std::sort(here.begin() + static_cast<std::ptrdiff_t>(known), here.end(), is_before_by_id);
           count_of(i) = static_cast<std::int64_t>(here.size() - known);
         },
@@ -190,10 +208,13 @@ Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& po
         tree, points, options.threads, [&](std::int64_t chunks) { rooms.resize(static_cast<std::size_t>(chunks)); },
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
-          room.resize(static_cast<std::size_t>(most));
+          const bool has_own = options.exclude != nullptr && options.exclude[i] >= 0;
+          const std::int64_t wanted = most + (has_own ? 1 : 0);
+          room.resize(static_cast<std::size_t>(wanted));
           const wide::PointQuestion question{tree.stored(points.at(i)), within * tree.scale, options.to, options.mask};
-          const std::int64_t count = periodic ? options.images->find_nearest(tree, question, most, room.data())
-                                              : wide::find_nearest(tree, question, most, room.data());
+          std::int64_t count = periodic ? options.images->find_nearest(tree, question, wanted, room.data())
+                                        : wide::find_nearest(tree, question, wanted, room.data());
+          if (has_own) count = wide::leave_out(room.data(), count, options.exclude[i], most);
           for (std::int64_t k = 0; k < count; ++k) {
             const auto to = static_cast<std::size_t>(i * per_point + k);
             nearest.distance[to] = room[static_cast<std::size_t>(k)].distance * unit;
@@ -232,7 +253,7 @@ Result<std::vector<std::int64_t>> count_within(const WideTree& tree, const Point
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
           room.clear();
-          wide::find_near(tree, tree.stored(points.at(i)), limit(i) * tree.scale, options, room);
+          wide::find_near(tree, points, i, limit(i) * tree.scale, options, room);
           counts[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(room.size());
         },
         [](std::int64_t, const std::vector<std::uint32_t>&) {});

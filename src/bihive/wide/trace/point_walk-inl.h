@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -149,34 +150,35 @@ class PointWalk {
   template <class Answer>
   HWY_INLINE void run(Answer& answer) const {
     if (tree_.node_count == 0) return;
-    // A node, or with a count the spheres of a leaf. Each level leaves at most 16 waiting.
+    // A child of a node. Each level leaves at most 16 waiting.
     struct Waiting {
       double key;
-      std::int64_t first, count;
+      const WideNode* node;
+      std::int64_t slot;
     };
     Waiting waiting[kMostLevels * kWidth];  // NOLINT: written before read
-    int waiting_count = 1;
-    waiting[0] = {-std::numeric_limits<double>::infinity(), 0, 0};
+    int waiting_count = 0;
     double largest_key = key_of(answer.limit());
-    while (waiting_count > 0) {
-      const Waiting next = waiting[--waiting_count];
-      if (next.key > largest_key) continue;
-      if (next.count > 0) {
-        test_leaf(next.first, next.count, answer);
-        largest_key = key_of(answer.limit());
-        continue;
-      }
-      // Insert the children into the waiting ones, so that the nearest comes next.
-      const WideNode& node = tree_.nodes[next.first];
+    const WideNode* node = tree_.nodes;
+    while (true) {
+      // The children wait in order, so that the nearest comes next.
       alignas(64) double keys[kWidth];
-      find_keys(node, keys);
-      const int first = waiting_count;
-      for (int slot = 0; slot < node.child_count; ++slot) {
-        if (keys[slot] > largest_key) continue;
-        int place = waiting_count++;
-        for (; place > first && waiting[place - 1].key < keys[slot]; --place) waiting[place] = waiting[place - 1];
-        waiting[place] = node.is_leaf(slot) ? Waiting{keys[slot], node.sphere_begin(slot), node.sphere_count(slot)}
-                                            : Waiting{keys[slot], node.child_node(slot), 0};
+      find_keys(*node, keys);
+      std::uint8_t order[kWidth];  // NOLINT: written before read
+      const int near = std::min(order_keys(keys, largest_key, order), int(node->child_count));
+      for (int i = near - 1; i >= 0; --i) waiting[waiting_count++] = {keys[order[i]], node, order[i]};
+      // Leaves, up to the next node.
+      for (node = nullptr; node == nullptr;) {
+        if (waiting_count == 0) return;
+        const Waiting& next = waiting[--waiting_count];
+        if (next.key > largest_key) continue;
+        const auto slot = static_cast<int>(next.slot);
+        if (!next.node->is_leaf(slot)) {
+          node = tree_.nodes + next.node->child_node(slot);
+          continue;
+        }
+        test_leaf(next.node->sphere_begin(slot), next.node->sphere_count(slot), answer);
+        largest_key = key_of(answer.limit());
       }
     }
   }
@@ -198,6 +200,40 @@ class PointWalk {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(Tag(), mask, bits);
     return bits[0];
+  }
+
+  // The slots by their keys, without a branch, which would often be predicted wrongly. The keys' lowest bits are
+  // replaced by the slot, so that all differ: the order is off by as little, which costs next to nothing. Returns how
+  // many of the first slots in order to look at: those of all keys that are at most `largest`, and those of keys that
+  // are larger by these bits.
+  static HWY_INLINE int order_keys(const double keys[kWidth], double largest, std::uint8_t order[kWidth]) {
+    const Tag d;
+    const hn::RebindToUnsigned<Tag> bits;
+    constexpr std::uint64_t kSlots = kWidth - 1;
+    // With other bits an infinite key would be no number.
+    constexpr double kMostKey = 1e300;
+    const auto end = std::bit_cast<std::uint64_t>(std::min(largest, kMostKey) + 0.0);
+    const auto last = hn::Set(d, std::bit_cast<double>(largest < 0 ? end & ~kSlots : end | kSlots));
+    alignas(64) double different[kWidth];
+    std::size_t near = 0;
+    for (int i = 0; i < kWidth; i += kLanes) {
+      const auto whole = hn::BitCast(bits, hn::Min(hn::Load(d, keys + i), hn::Set(d, kMostKey)));
+      const auto slots = hn::Iota(bits, static_cast<std::uint64_t>(i));
+      const auto key = hn::BitCast(d, hn::Or(hn::And(whole, hn::Set(bits, ~kSlots)), slots));
+      near += hn::CountTrue(d, hn::Le(key, last));
+      hn::Store(key, d, different + i);
+    }
+    alignas(64) double ranks[kWidth];
+    const auto one = hn::Set(d, 1.0);
+    for (int i = 0; i < kWidth; i += kLanes) {
+      const auto key = hn::Load(d, different + i);
+      auto rank = hn::Zero(d);
+      for (int k = 0; k < kWidth; ++k)
+        rank = hn::Add(rank, hn::IfThenElseZero(hn::Lt(hn::Set(d, different[k]), key), one));
+      hn::Store(rank, d, ranks + i);
+    }
+    for (int i = 0; i < kWidth; ++i) order[static_cast<int>(ranks[i])] = static_cast<std::uint8_t>(i);
+    return static_cast<int>(near);
   }
 
   // Squared distances have the same order as distances, and need no root. Negative ones stay unchanged.

@@ -28,6 +28,10 @@ struct NearestAnswers {
       best[count++] = sphere;
     } else {
       if (!(sphere < best[0])) return;
+      if (most == 1) {
+        best[0] = sphere;
+        return;
+      }
       std::pop_heap(best, best + count);
       best[count - 1] = sphere;
     }

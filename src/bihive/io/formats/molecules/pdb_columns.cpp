@@ -6,7 +6,7 @@
 namespace bihive {
 namespace {
 
-constexpr std::size_t kSerial = 7, kSerialWidth = 5, kResidue = 23, kResidueWidth = 4;
+constexpr std::size_t kSerialColumn = 7, kSerialColumnWidth = 5, kResidue = 23, kResidueWidth = 4;
 constexpr std::size_t kMostDigitsMore = 4;
 // Columns of the decimal points of x, y and z (8.3 each, from column 31).
 constexpr std::size_t kPoints[3] = {35, 43, 51};
@@ -58,9 +58,9 @@ bool ResidueNames::has_four_letters(std::string_view columns) {
 
 ColumnShift column_shift(std::string_view line) {
   // Nearly all lines end here.
-  if (!is_digit(line, kSerial + kSerialWidth) && !is_digit(line, kResidue + kResidueWidth)) return {};
+  if (!is_digit(line, kSerialColumn + kSerialColumnWidth) && !is_digit(line, kResidue + kResidueWidth)) return {};
   ColumnShift shift;
-  shift.serial = digits_more(line, kSerial, kSerialWidth);
+  shift.serial = digits_more(line, kSerialColumn, kSerialColumnWidth);
   shift.residue = digits_more(line, kResidue + shift.serial, kResidueWidth);
   const bool is_shifted = shift && !has_points(line, 0) && has_points(line, shift.serial + shift.residue);
   return is_shifted ? shift : ColumnShift{};
@@ -69,12 +69,12 @@ ColumnShift column_shift(std::string_view line) {
 std::string without_shift(std::string_view line, ColumnShift shift) {
   std::string plain(line);
   plain.erase(kResidue - 1 + shift.serial + kResidueWidth, shift.residue);
-  plain.erase(kSerial - 1 + kSerialWidth, shift.serial);
+  plain.erase(kSerialColumn - 1 + kSerialColumnWidth, shift.serial);
   return plain;
 }
 
 std::string_view shifted_serial(std::string_view line, ColumnShift shift) {
-  return trim(line.substr(kSerial - 1, kSerialWidth + shift.serial));
+  return trim(line.substr(kSerialColumn - 1, kSerialColumnWidth + shift.serial));
 }
 
 std::string_view shifted_residue_number(std::string_view line, ColumnShift shift) {
