@@ -2,6 +2,7 @@
 
 # ctest: asan-long
 
+import json
 import os
 import pathlib
 import re
@@ -68,11 +69,18 @@ class ManualPages(Words):
             self.assertEqual(done.stderr, "", command)
             self.assertIn("User commands", done.stdout)
 
+    def test_options_of_a_command_are_json(self):
+        rows = {row["id"]: row for row in json.loads(self.describe("options", "film"))}
+        self.assertEqual(rows["turntable"]["value"], "DEG")
+        self.assertEqual(rows["help"]["value"], "")
+        listed = {line.split()[1] for line in self.describe("options").splitlines() if line.startswith("film --")}
+        self.assertEqual({"--" + name.replace("_", "-") for name in rows}, listed)
+
     def test_describe_refuses_other_words(self):
-        for words in ([], ["man", "nothing"], ["man", "render", "film"], ["tcsh"], ["bash", "zsh"], ["commands", "all"]):
+        for words in ([], ["man", "nothing"], ["man", "render", "film"], ["tcsh"], ["bash", "zsh"], ["commands", "all"], ["options", "nothing"]):
             done = self.run_bihive("describe", *words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
-            self.assertIn("bihive describe knows: commands, options, settings, reading, picture, colour-maps, man [COMMAND], bash, zsh, fish", done.stderr)
+            self.assertIn("bihive describe knows: commands, options [COMMAND], settings, reading, picture, colour-maps, man [COMMAND], bash, zsh, fish", done.stderr)
 
 
 class Bash(Words):

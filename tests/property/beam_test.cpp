@@ -18,6 +18,7 @@
 #include "bihive/geometry/sphere.h"
 #include "bihive/math/rng.h"
 #include "bihive/simd/target.h"
+#include "bihive/wide/optical_depths.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/wide_builder.h"
 #include "support/block_rays.h"
@@ -83,6 +84,40 @@ Expected by_reference(const SphereSet& spheres, const RaySpan& rays) {
   return expected;
 }
 
+// Clear, faint and nearly opaque spheres, whose rows stand in another order than their ids.
+struct Depths {
+  std::vector<OpticalDepth> rows;
+  std::vector<std::int64_t> number_of;
+  SphereDepths view;
+
+  Depths(std::int64_t spheres, int columns) {
+    SplitMix64 rng(static_cast<std::uint64_t>(columns));
+    for (std::int64_t i = 0; i < spheres * columns; ++i)
+      rows.push_back(static_cast<OpticalDepth>(rng.next_below(kDeepestLayer + 1) >> 2 * rng.next_below(14)));
+    for (std::int64_t id = 0; id < spheres; ++id) number_of.push_back(spheres - 1 - id);
+    view = {rows.data(), columns, columns == 2 ? number_of.data() : nullptr};
+  }
+};
+
+// The sums of the hits, which take any order.
+void check_depths(const std::string& what, std::int64_t spheres, const WideTree& tree, const RaySpan& rays,
+                  const std::vector<RayHit>& hits) {
+  static int calls = 0;
+  const int columns = 1 + calls++ % 3;
+  const Depths depths(spheres, columns);
+  const auto n = static_cast<std::size_t>(rays.count);
+  std::vector<std::uint64_t> expected(3 * n);
+  for (const RayHit& hit : hits)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(columns); ++c)
+      expected[c * n + static_cast<std::size_t>(hit.ray)] += depths.view.row(hit.sphere_id)[c];
+  std::vector<OpticalDepth> found(3 * n, 7);
+  optical_depths(tree, rays, depths.view, {{found.data(), found.data() + n, found.data() + 2 * n}});
+  for (std::size_t i = 0; i < static_cast<std::size_t>(columns) * n; ++i)
+    ASSERT_EQ(found[i], std::min<std::uint64_t>(expected[i], kDeepest))
+        << what << ", ray " << i % n << ", column " << i / n << " of " << columns << ": "
+        << test::text_of(rays.at(static_cast<std::int64_t>(i % n)));
+}
+
 void check(const test::World& world, const std::string& kind, const SphereSet& spheres, const WideTree& tree,
            const RaySpan& rays) {
   const Expected expected = by_reference(spheres, rays);
@@ -115,6 +150,8 @@ void check(const test::World& world, const std::string& kind, const SphereSet& s
       ASSERT_EQ(std::memcmp(&all[i].t, &expected.all[i].t, sizeof(double)), 0)
           << world.name << ", " << kind << ", " << target << ": " << test::text_of(ray);
     }
+    check_depths(world.name + ", " + kind + ", " + target, spheres.size(), tree, rays, expected.all);
+    if (testing::Test::HasFatalFailure()) return;
   }
   ASSERT_TRUE(use_target("").ok());
 }

@@ -121,7 +121,7 @@ void check_engine(const Tracer& tracer, const RayBatch& rays, const Expected& ex
   }
 }
 
-void check_all_hits(const RayEngine& engine, const RayBatch& rays, const Expected& expected) {
+void check_all_hits(const RayEngine& engine, std::int64_t stored, const RayBatch& rays, const Expected& expected) {
   std::vector<RayHit> found;
   engine.all_hits(rays.span(), RayOrder::blocks, found);
   std::size_t next = 0;
@@ -140,6 +140,13 @@ void check_all_hits(const RayEngine& engine, const RayBatch& rays, const Expecte
     for (std::size_t k = 0; k < found.size(); ++k)
       ASSERT_EQ(found[k].sphere_id, expected.all[i][k].id) << "single ray " << i;
   }
+
+  // How many, as the sums of depths of 1.
+  const auto count = static_cast<std::size_t>(rays.size());
+  const std::vector<OpticalDepth> ones(static_cast<std::size_t>(stored), 1);
+  std::vector<OpticalDepth> sums(count, 7);
+  engine.optical_depths(rays.span(), RayOrder::blocks, {ones.data()}, {{sums.data()}});
+  for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(sums[i], expected.all[i].size()) << "ray " << i;
 }
 
 Expected truth_of(const SphereSet& spheres, const RayBatch& rays) {
@@ -196,11 +203,11 @@ TEST(images, answer_as_copies_do) {
       SCOPED_TRACE(target);
       ASSERT_TRUE(use_target(target).ok());
       check_engine(Tracer::build(set, Engine::wide).value(), rays, expected);
-      if (set.has_images()) check_all_hits(*build_engine(set, Engine::wide).value(), rays, expected);
+      if (set.has_images()) check_all_hits(*build_engine(set, Engine::wide).value(), set.size(), rays, expected);
       ASSERT_TRUE(use_target("").ok());
       if (testing::Test::HasFatalFailure()) return;
     }
-    if (set.has_images()) check_all_hits(*build_engine(set, Engine::reference).value(), rays, expected);
+    if (set.has_images()) check_all_hits(*build_engine(set, Engine::reference).value(), set.size(), rays, expected);
     if (testing::Test::HasFatalFailure()) return;
   }
   EXPECT_GT(found, 1000 / test::test_share());

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "bihive/base/version.h"
 #include "bihive/io/reading_settings.h"
@@ -106,6 +107,18 @@ std::string list_of_options(const ProgramWords& program) {
   return text;
 }
 
+// The options of a command as JSON: {"id":"frame_rate","value":"N","help":"..."}; "value" is empty for a switch.
+std::string options_to_json(const CommandWords& command) {
+  nlohmann::ordered_json options = nlohmann::ordered_json::array();
+  for (const OptionWords& option : command.options) {
+    if (option.names.empty()) continue;
+    std::string id = option.names.back().substr(2);
+    std::replace(id.begin(), id.end(), '-', '_');
+    options.push_back({{"id", id}, {"value", option.takes_value ? option.type : ""}, {"help", option.help}});
+  }
+  return as_text(options, -1);
+}
+
 }  // namespace
 
 ProgramWords read_program_words(const CLI::App& app) {
@@ -123,6 +136,9 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
     for (const CommandWords& command : program.commands) text += command.name + "\n";
   } else if (what == "options" && words.size() == 1) {
     text = list_of_options(program);
+  } else if (what == "options" && words.size() == 2) {
+    for (const CommandWords& command : program.commands)
+      if (command.name == words[1]) text = options_to_json(command) + "\n";
   } else if (what == "settings" && words.size() == 1) {
     text = parameters_to_json() + "\n";
   } else if (what == "reading" && words.size() == 1) {
@@ -140,8 +156,8 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
   }
   if (text.empty())
     fail_usage(
-        "bihive describe knows: commands, options, settings, reading, picture, colour-maps, man [COMMAND], bash, zsh, "
-        "fish",
+        "bihive describe knows: commands, options [COMMAND], settings, reading, picture, colour-maps, man [COMMAND], bash, "
+        "zsh, fish",
         "see docs/packages.md");
   return text;
 }

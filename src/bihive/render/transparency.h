@@ -9,6 +9,7 @@
 #include "bihive/base/result.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/math/optical_depth.h"
 #include "bihive/math/vec3.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/material.h"
@@ -20,6 +21,7 @@ namespace bihive {
 class CutSet;
 class RayEngine;
 class RemoteEngine;
+struct DepthSums;
 
 /// The colour that the light gets which goes straight through: white if all of it does, and the nearer to the hue of
 /// the material, the less does. One channel is always 1, so that the transmissive share alone says how much gets
@@ -74,9 +76,9 @@ class TransparentSpheres {
   Hit closest_opaque(const Ray& ray) const;
   /// All crossings of the ray's segment, by t and then by id; of a class the first.
   void find_crossings(const Ray& ray, std::vector<Crossing>& found) const;
-  /// Transmittance along the ray: 0 behind an opaque sphere, else the product of the shares of the crossed spheres in
-  /// no class, in the order of the crossings, and of the first sphere of each class, in the order of the classes, times
-  /// the product of their tints.
+  /// Transmittance along the ray: 0 behind an opaque sphere, else that of the sum of the optical depths
+  /// (math/optical_depth.h) of the crossed spheres in no class, in each channel that of share times tint, times the
+  /// share of the first sphere of each class, in the order of the classes.
   Vec3d share(const Ray& ray) const;
 
   /// Many rays at a time. Each ray's answer goes to its place, all crossings to one list: by ray, t and id. hides: 1
@@ -84,8 +86,9 @@ class TransparentSpheres {
   void closest_opaque(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
   void hides(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
   void find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
-  /// The shares of rays that no opaque sphere hides, one for each ray.
-  void find_shares(const RaySpan& rays, RayOrder order, Vec3d* shares) const;
+  /// The shares of rays that no opaque sphere hides, for each ray: in red, green and blue, or if there are no tints, in
+  /// one column for all.
+  void find_shares(const RaySpan& rays, RayOrder order, double* const columns[3]) const;
 
  private:
   std::size_t stored(std::int64_t id) const {
@@ -95,12 +98,17 @@ class TransparentSpheres {
 
   Vec3d tint_of(const Scene& scene, std::int64_t id) const;
   int class_of(std::int64_t id) const;
+  int columns() const { return has_tints() ? 3 : 1; }
+  void find_depths(std::int64_t id, OpticalDepth* row) const;
+  void sum_of_hits(const RaySpan& rays, RayOrder order, const DepthSums& sums, double* passed) const;
   void keep_first_of_classes(std::vector<RayHit>& found) const;
   double passing_of_seen(std::int64_t id) const;
 
   bool has_tints_ = false;
+  bool nothing_is_opaque_ = false;  // as far as is known
   std::vector<double> passing_;
   std::vector<Vec3d> tints_;          // empty: all are white
+  std::vector<OpticalDepth> depths_;  // a row for each stored sphere, 0 of those in a class; empty: they are remote
   std::vector<std::int8_t> classes_;  // empty: no sphere is in one, or they are remote
   const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
   const Scene* seen_ = nullptr;       // of the spheres that were seen; null: all are here

@@ -196,4 +196,17 @@ void CutEngine::all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit
   if (found.size() > of_whole) sort_hits(found);
 }
 
+void CutEngine::optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                               const DepthSums& sums) const {
+  of_whole_->optical_depths(rays, order, depths, sums);
+  static thread_local std::vector<RayHit> found;
+  for (const std::unique_ptr<Balls>& balls : groups_)
+    for_each_near(*balls, rays, order, nullptr, [&](std::int64_t i) {
+      found.clear();
+      All all{*cuts_, {i, found}};
+      look_at(*balls, rays.at(i), all);
+      for (const RayHit& hit : found) sums.add(i, depths, hit.sphere_id);
+    });
+}
+
 }  // namespace bihive

@@ -26,6 +26,8 @@ class CutEngine final : public RayEngine {
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override;
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const override;
   void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const override;
+  void optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                      const DepthSums& sums) const override;
 
  private:
   // Cut spheres with trees of their balls.

@@ -436,4 +436,12 @@ void ImageEngine::all_hits(const RaySpan& rays, RayOrder, std::vector<RayHit>& f
   sort_hits(found);
 }
 
+void ImageEngine::optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                                 const DepthSums& sums) const {
+  static thread_local std::vector<RayHit> found;
+  all_hits(rays, order, found);
+  for (int c = 0; c < depths.columns; ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
+  for (const RayHit& hit : found) sums.add(hit.ray, depths, whole_->stored_id(hit.sphere_id));
+}
+
 }  // namespace bihive

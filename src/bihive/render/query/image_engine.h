@@ -31,6 +31,9 @@ class ImageEngine final : public RayEngine {
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override;
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const override;
   void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const override;
+  /// `depths` are those of the stored spheres.
+  void optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                      const DepthSums& sums) const override;
 
   /// Of the stored spheres.
   const Tree* tree() const override { return engine_ == Engine::reference ? tree_.get() : nullptr; }

@@ -9,6 +9,7 @@
 #include "bihive/bih/tree.h"
 #include "bihive/geometry/hit.h"
 #include "bihive/geometry/ray.h"
+#include "bihive/wide/optical_depths.h"
 #include "bihive/wide/queries.h"
 
 namespace bihive {
@@ -31,6 +32,15 @@ class RayEngine {
   virtual void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const = 0;
   /// Each sphere that a ray's segment meets, at its t of a query for the closest hit: by ray, then by t, then by id.
   virtual void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const = 0;
+
+  /// The sums of wide/optical_depths.h: those of the spheres of all_hits().
+  virtual void optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                              const DepthSums& sums) const {
+    static thread_local std::vector<RayHit> found;
+    all_hits(rays, order, found);
+    for (int c = 0; c < depths.columns; ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
+    for (const RayHit& hit : found) sums.add(hit.ray, depths, hit.sphere_id);
+  }
 
   /// The tree of all spheres (of the stored ones, where there are images). Null: the engine has no such tree.
   virtual const Tree* tree() const { return nullptr; }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "bihive/base/check.h"
+
 namespace bihive {
 namespace {
 
@@ -122,6 +124,12 @@ void SubsetEngine::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* i
 void SubsetEngine::all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
   of_subset_->all_hits(translated(rays), order, found);
   for (RayHit& hit : found) hit.sphere_id = subset_->whole_id(hit.sphere_id);
+}
+
+void SubsetEngine::optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                                  const DepthSums& sums) const {
+  BIHIVE_CHECK(depths.number_of == nullptr);  // of the whole set's ids
+  of_subset_->optical_depths(translated(rays), order, {depths.rows, depths.columns, subset_->whole_ids()}, sums);
 }
 
 }  // namespace bihive

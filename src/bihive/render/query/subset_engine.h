@@ -18,6 +18,7 @@ class Subset {
   Subset(const SphereSet& whole, std::vector<std::int64_t> ids);
 
   const SphereSet& spheres() const { return spheres_; }
+  const std::int64_t* whole_ids() const { return ids_.data(); }
   std::int64_t whole_id(std::int64_t id) const { return ids_[static_cast<std::size_t>(id)]; }
   /// A sphere here that equals a sphere of the whole set, or kNothing: a ray that exits one of them exits all
   /// (geometry/scaled_ray.h).
@@ -49,6 +50,8 @@ class SubsetEngine final : public RayEngine {
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override;
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const override;
   void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const override;
+  void optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                      const DepthSums& sums) const override;
 
  private:
   // The rays as the subset sees them: they may exit one of its spheres. The span holds until the thread's next call.

@@ -57,6 +57,9 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
       else
         (its_class < 0 ? transparent : of_class[static_cast<std::size_t>(its_class)]).push_back(id);
     }
+    made->nothing_is_opaque_ = opaque.empty();
+    made->depths_.assign(made->passing_.size() * static_cast<std::size_t>(made->columns()), 0);
+    for (const std::int64_t id : transparent) made->find_depths(id, made->depths_.data() + id * made->columns());
     Result<std::shared_ptr<const RayEngine>> part =
         build_engine(spheres, std::move(opaque), cuts, {engine, {}, threads});
     if (!part) return part.error();
@@ -120,39 +123,66 @@ void TransparentSpheres::find_crossings(const Ray& ray, std::vector<Crossing>& f
 Vec3d TransparentSpheres::share(const Ray& ray) const {
   if (opaque_->occluded(ray)) return {};
   Vec3d share;
-  find_shares(one_ray(ray).span(), RayOrder::any, &share);
-  return share;
+  double* const columns_of_share[3] = {&share.x, &share.y, &share.z};
+  find_shares(one_ray(ray).span(), RayOrder::any, columns_of_share);
+  return has_tints() ? share : Vec3d{share.x, share.x, share.x};
 }
 
-void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, Vec3d* shares) const {
-  // Spheres in no class; where they are remote, all of them.
+// Of a sphere in no class.
+void TransparentSpheres::find_depths(std::int64_t id, OpticalDepth* row) const {
+  const Vec3d tint = this->tint(id);
+  for (int c = 0; c < columns(); ++c) row[c] = optical_depth(passing(id) * tint[c]);
+}
+
+// Where what a sphere lets through is known only once it is hit: the depths of spheres in no class, and the shares of
+// the first of each class, which `passed` is multiplied by.
+void TransparentSpheres::sum_of_hits(const RaySpan& rays, RayOrder order, const DepthSums& sums, double* passed) const {
   static thread_local std::vector<RayHit> found;
   transparent_->all_hits(rays, order, found);
   if (has_classes_) keep_first_of_classes(found);
-  static thread_local std::vector<double> passed;
-  passed.assign(static_cast<std::size_t>(rays.count), 1.0);
-  std::fill_n(shares, rays.count, Vec3d{1, 1, 1});
+  for (int c = 0; c < columns(); ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
   for (std::size_t i = 0; i < found.size();) {
     const std::int64_t ray = found[i].ray;
-    double& share = passed[static_cast<std::size_t>(ray)];
     double of_class[kOpacityClasses];
     std::fill_n(of_class, kOpacityClasses, 1.0);
     for (; i < found.size() && found[i].ray == ray; ++i) {
-      const int its_class = class_of(found[i].sphere_id);
-      (its_class < 0 ? share : of_class[its_class]) *= passing(found[i].sphere_id);
-      shares[ray] = shares[ray] * tint(found[i].sphere_id);
+      const std::int64_t id = found[i].sphere_id;
+      if (const int its_class = class_of(id); its_class >= 0) {
+        of_class[its_class] *= passing(id);
+        continue;
+      }
+      OpticalDepth row[3];
+      find_depths(id, row);
+      for (int c = 0; c < columns(); ++c) sums.columns[c][ray] = sum_of_depths(sums.columns[c][ray], row[c]);
     }
-    for (const double one : of_class) share *= one;
+    for (const double one : of_class) passed[ray] *= one;
   }
+}
+
+void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, double* const shares[3]) const {
+  // Spheres in no class; where they are remote, all of them.
+  const auto count = static_cast<std::size_t>(rays.count);
+  static thread_local std::vector<OpticalDepth> depths;
+  depths.resize(count * static_cast<std::size_t>(columns()));
+  DepthSums sums;
+  for (int c = 0; c < columns(); ++c) sums.columns[c] = depths.data() + count * static_cast<std::size_t>(c);
+  static thread_local std::vector<double> passed;
+  passed.assign(of_classes_.empty() && !has_classes_ ? 0 : count, 1.0);
+  if (seen_ == nullptr && of_images_ == nullptr)
+    transparent_->optical_depths(rays, order, {depths_.data(), columns()}, sums);
+  else
+    sum_of_hits(rays, order, sums, passed.data());
+  for (int c = 0; c < columns(); ++c)
+    for (std::size_t i = 0; i < count; ++i) shares[c][i] = transmittance(sums.columns[c][i]);
 
   // The first of each class, or where all let the same through, any.
   static thread_local HitBatch hits;
   static thread_local std::vector<std::uint8_t> crossed;
   for (const Class& one : of_classes_) {
     if (one.share > 0) {
-      crossed.resize(static_cast<std::size_t>(rays.count));
+      crossed.resize(count);
       one.engine->occluded(rays, order, crossed.data());
-      for (std::size_t i = 0; i < passed.size(); ++i)
+      for (std::size_t i = 0; i < count; ++i)
         if (crossed[i] != 0) passed[i] *= one.share;
       continue;
     }
@@ -161,7 +191,8 @@ void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, Vec3d*
     for (std::int64_t i = 0; i < rays.count; ++i)
       if (const Hit hit = hits.at(i); hit.found()) passed[static_cast<std::size_t>(i)] *= passing(hit.sphere_id);
   }
-  for (std::size_t i = 0; i < passed.size(); ++i) shares[i] = passed[i] * shares[i];
+  for (int c = 0; c < columns(); ++c)
+    for (std::size_t i = 0; i < passed.size(); ++i) shares[c][i] = passed[i] * shares[c][i];
 }
 
 int TransparentSpheres::class_of(std::int64_t id) const {
@@ -174,7 +205,10 @@ void TransparentSpheres::closest_opaque(const RaySpan& rays, RayOrder order, con
 }
 
 void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const {
-  opaque_->occluded(rays, order, is_occluded);
+  if (nothing_is_opaque_)
+    std::fill_n(is_occluded, rays.count, std::uint8_t{0});
+  else
+    opaque_->occluded(rays, order, is_occluded);
 }
 
 void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {

@@ -36,6 +36,9 @@ class WideEngine final : public RayEngine {
     here.t_max = ends.data();
     bihive::all_hits(*tree_, here, found);
   }
+  void optical_depths(const RaySpan& rays, RayOrder, const SphereDepths& depths, const DepthSums& sums) const override {
+    bihive::optical_depths(*tree_, rays, depths, sums);
+  }
   const WideTree* wide_tree() const override { return tree_.get(); }
 
  private:

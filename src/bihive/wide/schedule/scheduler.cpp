@@ -7,7 +7,8 @@
 //                  any:    to one light? in that order: beams -> the remaining ones: lists
 //                          else scattered? in the order of cells: lists
 //                          else lists
-//   all hits       beams -> the remaining ones, by the sphere that they exit: beams -> the rest: scalar traversal
+//   all hits,      beams -> the remaining ones, by the sphere that they exit: beams -> the rest: scalar traversal
+//   and depths
 //
 // Lists answer all rays that beams do not take at all (beams_take()). Where spheres lie inside others, closest and any
 // hit trace the outer tree first, and then the whole tree with the rays that may reach a core (schedule/core_rays.h).
@@ -17,6 +18,7 @@
 #include <memory>
 #include <vector>
 
+#include "bihive/wide/optical_depths.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/schedule/cell_order.h"
 #include "bihive/wide/schedule/core_rays.h"
@@ -229,23 +231,27 @@ void occluded_of_tree(const WideTree& tree, const RaySpan& rays, RayOrder order,
 
 // ---- All hits ----
 
-// Collects the hits of one ray.
+// Calls use(t, id) for each hit of one ray.
+template <class Use>
 struct HitsOfRay {
-  std::int64_t ray;
-  std::vector<RayHit>& hits;
+  const Use& use;
 
   bool take(double t, std::int64_t id) const {
-    if (t < std::numeric_limits<double>::infinity()) hits.push_back({ray, t, id});
+    if (t < std::numeric_limits<double>::infinity()) use(t, id);
     return false;
   }
   static double limit() { return std::numeric_limits<double>::infinity(); }
 };
 
-void all_hits_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, std::vector<RayHit>& hits) {
-  const Ray ray = rays.at(i);
+template <class Use>
+void for_hits_of_ray(const WideTree& tree, const Ray& ray, const Use& use) {
   if (!is_valid(ray)) return;
-  HitsOfRay of_ray{i, hits};
+  HitsOfRay<Use> of_ray{use};
   walk_scalar(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves), of_ray);
+}
+
+void all_hits_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, std::vector<RayHit>& hits) {
+  for_hits_of_ray(tree, rays.at(i), [&](double t, std::int64_t id) { hits.push_back({i, t, id}); });
 }
 
 // Nothing lies between the start and the end of the ray.
@@ -254,20 +260,26 @@ bool is_empty(const RaySpan& rays, std::int64_t i) {
 }
 
 // Rays that are not neighbours may still start on the same spheres, as with many layers of surfaces: in this order
-// beams take most of them.
-void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const RemainingRays& which,
-                             std::vector<RayHit>& hits) {
-  ReorderedBatch& batch = memory_of_this_thread().sorted;
+// beams take most of them. False: all are empty.
+bool gather_by_left_sphere(const RaySpan& rays, const RemainingRays& which, ReorderedBatch& batch) {
   std::vector<std::uint32_t>& order = batch.order();
   order.clear();
   for (const RemainingRays::Run& run : which.runs())
     for (std::int64_t i = run.first; i < run.first + run.count; ++i)
       if (!is_empty(rays, i)) order.push_back(static_cast<std::uint32_t>(i));
-  if (order.empty()) return;
+  if (order.empty()) return false;
   if (rays.leaves != nullptr)
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return rays.leaves[a] < rays.leaves[b]; });
   batch.gather(rays);
+  return true;
+}
+
+void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const RemainingRays& which,
+                             std::vector<RayHit>& hits) {
+  ReorderedBatch& batch = memory_of_this_thread().sorted;
+  if (!gather_by_left_sphere(rays, which, batch)) return;
+  const std::vector<std::uint32_t>& order = batch.order();
   const std::size_t known = hits.size();
   const RemainingRays remaining = all_hits_by_beams(tree, batch.rays(), true, hits);
   for (std::size_t i = known; i < hits.size(); ++i) hits[i].ray = order[static_cast<std::size_t>(hits[i].ray)];
@@ -283,6 +295,33 @@ void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vecto
   }
   const RemainingRays remaining = all_hits_by_beams(tree, rays, false, hits);
   if (remaining.count() > 0) all_hits_by_left_sphere(tree, rays, remaining, hits);
+}
+
+// ---- Optical depths ----
+
+void depths_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, const SphereDepths& depths,
+                   const DepthSums& sums) {
+  for_hits_of_ray(tree, rays.at(i), [&](double, std::int64_t id) {
+    sums.add(i, depths, id);
+    for_duplicates(tree, id, [&](std::int64_t other) { sums.add(i, depths, other); });
+  });
+}
+
+void depths_by_left_sphere(const WideTree& tree, const RaySpan& rays, const RemainingRays& which,
+                           const SphereDepths& depths, const DepthSums& sums) {
+  ReorderedBatch& batch = memory_of_this_thread().sorted;
+  if (!gather_by_left_sphere(rays, which, batch)) return;
+  const std::vector<std::uint32_t>& order = batch.order();
+  thread_local std::vector<OpticalDepth> of_batch;
+  of_batch.assign(order.size() * static_cast<std::size_t>(depths.columns), 0);
+  DepthSums here;
+  for (int c = 0; c < depths.columns; ++c) here.columns[c] = of_batch.data() + c * order.size();
+  const RemainingRays remaining = depths_by_beams(tree, batch.rays(), true, depths, here);
+  for (int c = 0; c < depths.columns; ++c)
+    for (std::size_t i = 0; i < order.size(); ++i) sums.columns[c][order[i]] = here.columns[c][i];
+  for (const RemainingRays::Run& run : remaining.runs())
+    for (std::int64_t i = run.first; i < run.first + run.count; ++i)
+      depths_of_ray(tree, rays, order[static_cast<std::size_t>(i)], depths, sums);
 }
 
 // Counting sort by ray; then the few hits of each ray are sorted by t and id.
@@ -311,6 +350,16 @@ void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hi
   wide::all_hits_in_any_order(tree, rays, found);
   add_duplicates(tree, 0, found);
   wide::sort_hits(rays.count, found, hits);
+}
+
+void optical_depths(const WideTree& tree, const RaySpan& rays, const SphereDepths& depths, const DepthSums& sums) {
+  for (int c = 0; c < depths.columns; ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
+  if (!wide::beams_take(tree, rays)) {
+    for (std::int64_t i = 0; i < rays.count; ++i) wide::depths_of_ray(tree, rays, i, depths, sums);
+    return;
+  }
+  const RemainingRays remaining = wide::depths_by_beams(tree, rays, false, depths, sums);
+  if (remaining.count() > 0) wide::depths_by_left_sphere(tree, rays, remaining, depths, sums);
 }
 
 void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, const HitSpan& hits) {

@@ -19,7 +19,8 @@
 // e,
 //   0 <= dp - h^2 <= R^2 - r^2 + (p + e)^2 - p^2 <= 4 e R           (h: the true half chord, p <= R)
 // so the root exists if dp > 4 e R, and then sqrt(dp) - h <= 4 e R / sqrt(dp). The near root lies in [lo, hi],
-//   hi = lo + 2 e + 4 e R / sqrt(dp).
+//   hi = lo + 2 e + 4 e R / sqrt(dp),
+// and the far root in [up - (hi - lo), up] with up = b + e + sqrt(dp).
 // kSureShare and kWidthShare are 4 with room for the approximate reciprocal root (relative error below 2e-3 on every
 // target). r = 0 is never sure: dp <= e^2 < kSureShare e R.
 //

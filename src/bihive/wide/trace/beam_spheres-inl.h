@@ -78,6 +78,9 @@ class RootBounds {
   HWY_INLINE RootBounds(const BeamRays& rays, const Candidate& sphere)
       : e_(rays.e), sure_above_(kSureShare * rays.e * sphere.padded), spread_(kWidthShare * rays.e * sphere.padded) {}
 
+  /// With kFarToo a far root that surely lies before sure_end makes a hit sure as well: if the near root lies in the
+  /// segment, it is the hit, and else the ray starts inside.
+  template <bool kFarToo = false>
   HWY_INLINE Roots of(const Meeting& m, FloatMask near, Floats best, Floats sure_end) const {
     const FloatTag d;
     const auto zero = hn::Zero(d);
@@ -89,8 +92,10 @@ class RootBounds {
     roots.candidate = hn::And(near, hn::And(hn::Le(roots.lower, best), hn::Ge(far_upper, zero)));
     const auto width = hn::MulAdd(hn::Set(d, spread_), hn::ApproximateReciprocalSqrt(m.dp), hn::Add(e, e));
     roots.upper = hn::Add(roots.lower, width);
-    roots.sure = hn::And(hn::And(roots.candidate, hn::Gt(m.dp, hn::Set(d, sure_above_))),
-                         hn::And(hn::Gt(roots.lower, zero), hn::Lt(roots.upper, sure_end)));
+    auto in_segment = hn::And(hn::Gt(roots.lower, zero), hn::Lt(roots.upper, sure_end));
+    if constexpr (kFarToo)
+      in_segment = hn::Or(in_segment, hn::And(hn::Gt(hn::Sub(far_upper, width), zero), hn::Lt(far_upper, sure_end)));
+    roots.sure = hn::And(hn::And(roots.candidate, hn::Gt(m.dp, hn::Set(d, sure_above_))), in_segment);
     return roots;
   }
 

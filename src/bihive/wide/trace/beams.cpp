@@ -59,8 +59,8 @@ RemainingRays closest_hits_by_beams_on_target(const WideTree& tree, const RaySpa
   return remaining;
 }
 
-template <bool kAllHits>
-void occluded_block(const WideTree& tree, const RaySpan& rays, std::int64_t first, OcclusionBeam<kAllHits>& beam,
+template <Sought kSought>
+void occluded_block(const WideTree& tree, const RaySpan& rays, std::int64_t first, OcclusionBeam<kSought>& beam,
                     RemainingRays& remaining) {
   const int count = block_size(rays, first);
   if (set_up_beam(tree, rays, first, count, beam.rays)) {
@@ -72,7 +72,7 @@ void occluded_block(const WideTree& tree, const RaySpan& rays, std::int64_t firs
 
 RemainingRays occluded_by_beams_on_target(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden) {
   RemainingRays remaining;
-  OcclusionBeam<false> beam(tree, rays, false, hidden);
+  OcclusionBeam<Sought::any_hit> beam(tree, rays, false, {.hidden = hidden});
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
     // If beams return most of their rays, the lists do better with all of them in their original order.
     if (first == kTrialBlocks * kBeamRays && remaining.count() > first / 3) {
@@ -88,7 +88,17 @@ RemainingRays occluded_by_beams_on_target(const WideTree& tree, const RaySpan& r
 RemainingRays all_hits_by_beams_on_target(const WideTree& tree, const RaySpan& rays, bool sorted,
                                           std::vector<RayHit>& found) {
   RemainingRays remaining;
-  OcclusionBeam<true> beam(tree, rays, sorted, nullptr, &found);
+  OcclusionBeam<Sought::all_hits> beam(tree, rays, sorted, {.found = &found});
+  for (std::int64_t first = 0; first < rays.count; first += kBeamRays)
+    occluded_block(tree, rays, first, beam, remaining);
+  beam.decide();
+  return remaining;
+}
+
+RemainingRays depths_by_beams_on_target(const WideTree& tree, const RaySpan& rays, bool sorted,
+                                        const SphereDepths& depths, const DepthSums& sums) {
+  RemainingRays remaining;
+  OcclusionBeam<Sought::depths> beam(tree, rays, sorted, {.depths = &depths, .sums = sums});
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays)
     occluded_block(tree, rays, first, beam, remaining);
   beam.decide();
@@ -98,7 +108,7 @@ RemainingRays all_hits_by_beams_on_target(const WideTree& tree, const RaySpan& r
 wide::SortedBeams occluded_by_sorted_beams_on_target(const WideTree& tree, const RaySpan& rays,
                                                      const wide::BlockChoice& blocks, std::uint8_t* hidden) {
   wide::SortedBeams done;
-  OcclusionBeam<false> beam(tree, rays, true, hidden);
+  OcclusionBeam<Sought::any_hit> beam(tree, rays, true, {.hidden = hidden});
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays)
     if ((first / kBeamRays % blocks.step == 0) != blocks.others)
       occluded_block(tree, rays, first, beam, done.remaining);
@@ -118,6 +128,7 @@ HWY_EXPORT(closest_hits_by_beams_on_target);
 HWY_EXPORT(occluded_by_beams_on_target);
 HWY_EXPORT(occluded_by_sorted_beams_on_target);
 HWY_EXPORT(all_hits_by_beams_on_target);
+HWY_EXPORT(depths_by_beams_on_target);
 
 namespace wide {
 
@@ -139,6 +150,12 @@ RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::
 RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, std::vector<RayHit>& found) {
   ensure_target();
   return HWY_DYNAMIC_DISPATCH(all_hits_by_beams_on_target)(tree, rays, sorted, found);
+}
+
+RemainingRays depths_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, const SphereDepths& depths,
+                              const DepthSums& sums) {
+  ensure_target();
+  return HWY_DYNAMIC_DISPATCH(depths_by_beams_on_target)(tree, rays, sorted, depths, sums);
 }
 
 SortedBeams occluded_by_sorted_beams(const WideTree& tree, const RaySpan& rays, const BlockChoice& blocks,

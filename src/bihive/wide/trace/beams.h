@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bihive/wide/optical_depths.h"
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/trace/remaining_rays.h"
 #include "bihive/wide/wide_tree.h"
@@ -24,6 +25,10 @@ RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::
 /// Appends every hit of the rays that it does not return, in no order. sorted: it returns only rays that binary32
 /// cannot hold, and answers others singly where they make no beam.
 RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, std::vector<RayHit>& found);
+
+/// Adds the depths of all hits of the rays that it does not return to their sums. sorted: as above.
+RemainingRays depths_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, const SphereDepths& depths,
+                              const DepthSums& sums);
 
 /// Blocks of a span: those whose number is a multiple of `step`, or all others.
 struct BlockChoice {

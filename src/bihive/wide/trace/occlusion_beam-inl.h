@@ -1,6 +1,7 @@
-// Any hit of a block of 64 neighbouring rays, or all hits. It is made for shadow rays towards a light: the traversal
-// starts at the far ends of the rays, rays that are surely occluded drop out of the beam, and the occluders of the last
-// blocks are tried first. For all hits, no ray drops out, and binary64 decides every sphere that a ray may meet.
+// Any hit of a block of 64 neighbouring rays, or all hits, or the sums of their optical depths. It is made for shadow
+// rays towards a light: the traversal starts at the far ends of the rays, rays that are surely occluded drop out of the
+// beam, and the occluders of the last blocks are tried first. For all hits, no ray drops out, and binary64 decides
+// every sphere that a ray may meet; for sums, which need no t, only where binary32 cannot.
 
 #if defined(BIHIVE_WIDE_TRACE_OCCLUSION_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_OCCLUSION_BEAM_INL_H_
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "bihive/simd/lanes-inl.h"
+#include "bihive/wide/optical_depths.h"
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/trace/beam_rays-inl.h"
 #include "bihive/wide/trace/beam_spheres-inl.h"
@@ -25,6 +27,7 @@
 #include "bihive/wide/trace/remaining_rays.h"
 #include "bihive/wide/trace/tuning.h"
 #include "bihive/wide/trace/undecided_pairs.h"
+#include "bihive/wide/tree/duplicates.h"
 #include "bihive/wide/tree/leaf_extent.h"
 #include "bihive/wide/wide_tree.h"
 
@@ -56,21 +59,27 @@ class Occluders {
   int count_ = 0;
 };
 
+/// What a call asks of its rays.
+enum class Sought { any_hit, all_hits, depths };
+
+/// The answers, of which a call needs one: a byte for each ray; all hits, in no order; sums, which were set to 0.
+struct OcclusionAnswer {
+  std::uint8_t* hidden = nullptr;
+  std::vector<RayHit>* found = nullptr;
+  const SphereDepths* depths = nullptr;
+  DepthSums sums{};
+};
+
 /// Answers the blocks of one call.
-template <bool kAllHits>
+template <Sought kSought>
 class OcclusionBeam {
+  static constexpr bool kAllHits = kSought != Sought::any_hit;
+
  public:
-  /// sorted: neighbours may start on any surfaces; for all hits, every ray is answered, singly if necessary. `hidden`:
-  /// for any hit. `found`: for all hits, in no order.
-  OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, std::uint8_t* hidden,
-                std::vector<RayHit>* found = nullptr)
-      : tree_(tree),
-        span_(span),
-        hidden_(hidden),
-        found_(found),
-        leave_spheres_(span.leaves != nullptr),
-        sorted_(sorted) {
-    width_limit_ = leaf_extent(tree);
+  /// sorted: neighbours may start on any surfaces; for all hits, every ray is answered, singly if necessary.
+  OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, const OcclusionAnswer& answer)
+      : tree_(tree), span_(span), answer_(answer), leave_spheres_(span.leaves != nullptr), sorted_(sorted) {
+    width_limit_ = (kSought == Sought::depths ? kWidestForDepthsInLeaves : 1.0F) * leaf_extent(tree);
     run_width_limit_ = sorted ? width_limit_ : kWidestRunInLeaves * width_limit_;
   }
 
@@ -81,17 +90,24 @@ class OcclusionBeam {
   /// those are added to `remaining`.
   HWY_INLINE void block(std::int64_t first_ray, RemainingRays& remaining) {
     first_ray_ = first_ray;
-    if (!kAllHits) std::fill_n(hidden_ + first_ray, rays.count, std::uint8_t{0});
+    if (!kAllHits) std::fill_n(answer_.hidden + first_ray, rays.count, std::uint8_t{0});
+    if (kSought == Sought::depths) sums_ = {};
     trace_block(remaining);
+    if (kSought == Sought::depths) add_sums();
   }
 
   /// The rays of the pairs must have been answered, by block(), before.
   void decide() {
     decide_pairs(tree_, span_, pairs_, [&](std::int64_t ray, double t, std::uint32_t slot) HWY_ATTR {
-      if constexpr (kAllHits)
-        found_->push_back({ray, t, tree_.spheres.id(slot)});
-      else
-        hidden_[ray] = 1;
+      if constexpr (kSought == Sought::any_hit) answer_.hidden[ray] = 1;
+      if constexpr (kSought == Sought::all_hits) answer_.found->push_back({ray, t, tree_.spheres.id(slot)});
+      if constexpr (kSought == Sought::depths) {
+        const OpticalDepth* const depths = depths_of(slot);
+        for (int c = 0; c < answer_.depths->columns; ++c) {
+          OpticalDepth& sum = answer_.sums.columns[c][ray];
+          sum = sum_of_depths(sum, depths[c]);
+        }
+      }
     });
   }
 
@@ -198,8 +214,7 @@ class OcclusionBeam {
 
   const WideTree& tree_;
   const RaySpan& span_;
-  std::uint8_t* hidden_;
-  std::vector<RayHit>* found_;
+  OcclusionAnswer answer_;
   bool leave_spheres_;  ///< some rays may start on a sphere
   bool sorted_;
   std::int64_t first_ray_ = 0;
@@ -208,6 +223,45 @@ class OcclusionBeam {
   float width_limit_, run_width_limit_;
   UndecidedPairs<512> pairs_;
   Occluders occluders_;
+
+  // Of the block's rays, as far as binary32 knows.
+  struct alignas(64) Sums {
+    OpticalDepth columns[3][kBeamRays];
+  };
+  Sums sums_;
+  OpticalDepth with_duplicates_[3];
+
+  HWY_INLINE void add_sums() {
+    for (int c = 0; c < answer_.depths->columns; ++c) {
+      OpticalDepth* const to = answer_.sums.columns[c] + first_ray_;
+      for (int i = 0; i < rays.count; ++i) to[i] = sum_of_depths(to[i], sums_.columns[c][i]);
+    }
+  }
+
+  // Of the sphere and those that coincide with it. Holds until the next call.
+  HWY_INLINE const OpticalDepth* depths_of(std::uint32_t slot) {
+    const std::int64_t id = tree_.spheres.id(slot);
+    const OpticalDepth* const row = answer_.depths->row(id);
+    if (HWY_LIKELY(tree_.piles.empty())) return row;
+    const int columns = answer_.depths->columns;
+    std::copy_n(row, columns, with_duplicates_);
+    for_duplicates(tree_, id, [&](std::int64_t other) {
+      for (int c = 0; c < columns; ++c)
+        with_duplicates_[c] = sum_of_depths(with_duplicates_[c], answer_.depths->row(other)[c]);
+    });
+    return with_duplicates_;
+  }
+
+  HWY_INLINE void add_depths(const OpticalDepth* depths, FloatMask to, int lane) {
+    const WordTag w;
+    const auto lanes = hn::RebindMask(w, to);
+    for (int c = 0; c < answer_.depths->columns; ++c) {
+      OpticalDepth* const sums = sums_.columns[c] + lane;
+      const auto before = hn::Load(w, sums);
+      const auto added = hn::Min(hn::Add(before, hn::Set(w, depths[c])), hn::Set(w, kDeepest));
+      hn::Store(hn::IfThenElse(lanes, added, before), w, sums);
+    }
+  }
 
   // The lanes whose rays have no segment any more.
   HWY_INLINE std::uint64_t done_lanes() const {
@@ -222,7 +276,7 @@ class OcclusionBeam {
 
   HWY_INLINE void note_hidden(std::uint64_t lanes) {
     if (kAllHits || lanes == 0) return;
-    for (int i = 0; i < rays.count; ++i) hidden_[first_ray_ + i] |= static_cast<std::uint8_t>(lanes >> i & 1);
+    for (int i = 0; i < rays.count; ++i) answer_.hidden[first_ray_ + i] |= static_cast<std::uint8_t>(lanes >> i & 1);
   }
 
   HWY_INLINE void find_open_vectors() {
@@ -255,6 +309,7 @@ class OcclusionBeam {
                                  padded,
                                  padded * padded};
     const beam::RootBounds bounds(rays, sphere);
+    const OpticalDepth* depths = nullptr;
     if (HWY_UNLIKELY(!pairs_.has_room(kBeamRays))) decide();
     met_ += kRays;
     bool any = false;
@@ -268,9 +323,16 @@ class OcclusionBeam {
       near = hn::And(near, hn::Ge(best, hn::Zero(d)));
       if (hn::AllFalse(d, near)) continue;
 
-      const beam::Roots roots = bounds.of(met, near, best, hn::Load(d, rays.s_sure + lane));
-      if constexpr (kAllHits) {
+      constexpr bool kFarToo = kSought == Sought::depths;
+      const beam::Roots roots = bounds.template of<kFarToo>(met, near, best, hn::Load(d, rays.s_sure + lane));
+      if constexpr (kSought == Sought::all_hits) {
         add_pairs(mask_bits(roots.candidate), lane, slot);
+        continue;
+      }
+      if constexpr (kSought == Sought::depths) {
+        if (depths == nullptr) depths = depths_of(slot);
+        add_depths(depths, roots.sure, lane);
+        add_pairs(mask_bits(hn::AndNot(roots.sure, roots.candidate)), lane, slot);
         continue;
       }
       const auto rest = hn::IfThenElse(roots.sure, hn::Set(d, -1.0F), best);

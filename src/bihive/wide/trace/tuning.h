@@ -19,6 +19,10 @@ constexpr float kWidestWholeInLeaves = 0.25F;
 /// leaf if they were sorted.
 constexpr float kWidestRunInLeaves = 1.5F;
 
+/// Depths, for which no ray ends early: a beam up to this width is traced as a whole (measured from 1 to 8 in a
+/// protein, whose rays start on many layers: 4 leaves no beam to be split, and gains 8 %).
+constexpr float kWidestForDepthsInLeaves = 4;
+
 /// Rays of a wide beam that start on the same sphere become a beam of their own. Groups with fewer rays than the first
 /// limit go to the lists; after as many small groups as the second, all rays of the block do.
 constexpr int kFewestOfGroup = 4;

@@ -67,17 +67,28 @@ HWY_EXPORT(find_light_rays_on_target);
 namespace steps {
 
 void group_places(const WaveSurfaces& surfaces, const Grouping& by, PlaceGroups& groups) {
-  const auto group_of = [&](std::int64_t i) {
-    const std::int64_t level = by.level_of != nullptr ? by.level_of[i] : 0;
-    return static_cast<std::size_t>(level * by.sets + (by.first_sample + surfaces.owner[i]) % by.samples % by.sets);
-  };
+  static thread_local std::vector<std::uint32_t> group_of;
+  group_of.resize(static_cast<std::size_t>(surfaces.count));
+  const auto samples = static_cast<std::uint64_t>(by.samples);
+  const auto sets = static_cast<std::uint32_t>(by.sets);
   const auto count = static_cast<std::size_t>(by.levels * by.sets);
   groups.first.assign(count + 1, 0);
-  for (std::int64_t i = 0; i < surfaces.count; ++i) ++groups.first[group_of(i) + 1];
+  for (std::int64_t i = 0; i < surfaces.count; ++i) {
+    const auto sample = static_cast<std::uint64_t>(by.first_sample + surfaces.owner[i]);
+    // Division of 32 bits takes a third of the time.
+    const std::uint32_t of_pixel = (sample | samples) >> 32 == 0
+                                       ? static_cast<std::uint32_t>(sample) % static_cast<std::uint32_t>(samples)
+                                       : static_cast<std::uint32_t>(sample % samples);
+    const std::uint32_t level = by.level_of != nullptr ? by.level_of[i] : 0;
+    const std::uint32_t group = level * sets + of_pixel % sets;
+    group_of[static_cast<std::size_t>(i)] = group;
+    ++groups.first[group + 1];
+  }
   for (std::size_t group = 0; group < count; ++group) groups.first[group + 1] += groups.first[group];
   groups.surfaces.resize(static_cast<std::size_t>(surfaces.count));
   std::vector<std::int64_t> next(groups.first.begin(), groups.first.end() - 1);
-  for (std::int64_t i = 0; i < surfaces.count; ++i) groups.surfaces[static_cast<std::size_t>(next[group_of(i)]++)] = i;
+  for (std::int64_t i = 0; i < surfaces.count; ++i)
+    groups.surfaces[static_cast<std::size_t>(next[group_of[static_cast<std::size_t>(i)]]++)] = i;
 }
 
 void gather_places(const WaveSurfaces& surfaces, const PlaceGroups& groups, std::int64_t group, int channels,

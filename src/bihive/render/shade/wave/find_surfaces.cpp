@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "bihive/render/shade/wave/wave.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -101,6 +103,9 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
     if (passes_apart && is_passed_straight(material)) material.transmissive = 0;
   const SphereAttributes& attributes = drawn.spheres.attributes();
   has_effects = bihive::has_effects(drawn);
+  const auto spawns = [](const Material& material) { return material.reflective > 0 || material.transmissive > 0; };
+  spawns_rays =
+      std::any_of(materials.begin(), materials.end(), spawns) || (drawn.plane && spawns(drawn.plane->material));
   has_attributes = !attributes.colour.empty() || !attributes.opacity.empty();
   if (!drawn.plane) return;
   plane = local_plane(drawn);

@@ -30,6 +30,7 @@ struct WaveScene {
   double inverse_scale;  ///< world units from stored units, a power of two
   std::vector<Material>
       materials;                ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
+  bool spawns_rays = false;     ///< some material reflects or refracts
   bool has_attributes = false;  ///< some sphere has its own colour or opacity
   bool has_effects = false;     ///< some material has bands, a tint or a glow
   /// What is passed straight sends no ray on: OpacityRule::once. Such materials have a transmissive share of 0 here.

@@ -1,6 +1,7 @@
 #include "bihive/render/shade/wave/wave_integrator.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "bihive/geometry/plane.h"
@@ -13,6 +14,9 @@ constexpr std::int64_t kRaysBetweenLooks = 64;
 // nearest cache. A part ends between two owners: without shadows, the surfaces of one part are added before the misses
 // of the next part.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
+
+// Rays of which each layer comes before the next one: their rays of one set of directions then fill some beams.
+constexpr std::int64_t kRaysOfLayer = 2048;
 
 // Rays about which other processes are asked before their turn comes.
 constexpr std::int64_t kMostRaysAskedAhead = 1 << 17;
@@ -139,47 +143,73 @@ void WaveIntegrator::trace_layers(const WavePart& rays, int depth, WaveBuffers& 
 // The rays of number `first` to before `end` as a wave with a ray for each surface, and their hits.
 void WaveIntegrator::put_layers(const WavePart& rays, const CrossingBuffers& found, std::int64_t first,
                                 std::int64_t end, int depth, WaveBuffers& buffers) {
-  const Wave& wave = *rays.wave;
-  Wave& layers = buffers.layers;
   const auto most = static_cast<std::int64_t>(found.first[static_cast<std::size_t>(end)] -
                                               found.first[static_cast<std::size_t>(first)]) +
                     end - first;
-  layers.reset(most, to_eye()->has_tints());
+  buffers.layers.reset(most, to_eye()->has_tints());
   buffers.t.reserve(most);
   buffers.id.reserve(most);
+  const std::int64_t at_once = layers_go_together() ? kRaysOfLayer : 1;
+  for (std::int64_t k = first; k < end; k += at_once)
+    put_layers_together(rays, found, k, std::min(end, k + at_once), depth, buffers);
+}
+
+// One layer of all these rays after the other.
+void WaveIntegrator::put_layers_together(const WavePart& rays, const CrossingBuffers& found, std::int64_t first,
+                                         std::int64_t end, int depth, WaveBuffers& buffers) {
+  const Wave& wave = *rays.wave;
+  Wave& layers = buffers.layers;
+  struct Left {
+    std::int64_t ray;
+    std::size_t next;  // of its crossings
+    double weight;
+    Vec3d tint;
+  };
+  static thread_local std::vector<Left> left;
+  left.clear();
   for (std::int64_t k = first; k < end; ++k) {
     const std::int64_t from = rays.first + k;
-    double weight = wave.starts_at_eye ? 1 : wave.weight[from];
-    Vec3d tint{1, 1, 1};
-    for (int channel = 0; wave.has_tints && channel < 3; ++channel) tint[channel] = wave.tint[channel][from];
-    const auto add = [&](double t, std::int64_t id) {
-      const std::int64_t to = layers.count++;
-      for (int axis = 0; axis < 3; ++axis) {
-        layers.origin[axis][to] = wave.origin[axis][from];
-        layers.direction[axis][to] = wave.direction[axis][from];
+    Left ray{k, found.first[static_cast<std::size_t>(k)], wave.starts_at_eye ? 1 : wave.weight[from], {1, 1, 1}};
+    for (int channel = 0; wave.has_tints && channel < 3; ++channel) ray.tint[channel] = wave.tint[channel][from];
+    left.push_back(ray);
+  }
+
+  while (!left.empty()) {
+    std::size_t kept = 0;
+    for (Left& ray : left) {
+      const std::int64_t from = rays.first + ray.ray;
+      const auto k = static_cast<std::size_t>(ray.ray);
+      const auto add = [&](double t, std::int64_t id) {
+        const std::int64_t to = layers.count++;
+        for (int axis = 0; axis < 3; ++axis) {
+          layers.origin[axis][to] = wave.origin[axis][from];
+          layers.direction[axis][to] = wave.direction[axis][from];
+        }
+        layers.leaves[to] = wave.starts_at_eye ? kNothing : wave.leaves[from];
+        layers.inside[to] = wave.starts_at_eye ? 0 : wave.inside[from];
+        layers.weight[to] = ray.weight;
+        for (int channel = 0; layers.has_tints && channel < 3; ++channel) layers.tint[channel][to] = ray.tint[channel];
+        layers.owner[to] = wave.starts_at_eye ? from : wave.owner[from];
+        buffers.t[to] = t;
+        buffers.id[to] = id;
+      };
+      if (ray.next < found.first[k + 1]) {
+        const RayHit& crossing = found.crossings[ray.next++];
+        add(crossing.t, crossing.sphere_id);
+        ray.weight = ray.weight * to_eye()->passing(crossing.sphere_id);
+        ray.tint = ray.tint * to_eye()->tint(crossing.sphere_id);
+        left[kept++] = ray;
+        continue;
       }
-      layers.leaves[to] = wave.starts_at_eye ? kNothing : wave.leaves[from];
-      layers.inside[to] = wave.starts_at_eye ? 0 : wave.inside[from];
-      layers.weight[to] = weight;
-      for (int channel = 0; layers.has_tints && channel < 3; ++channel) layers.tint[channel][to] = tint[channel];
-      layers.owner[to] = wave.starts_at_eye ? from : wave.owner[from];
-      buffers.t[to] = t;
-      buffers.id[to] = id;
-    };
-    for (std::size_t c = found.first[static_cast<std::size_t>(k)]; c < found.first[static_cast<std::size_t>(k) + 1];
-         ++c) {
-      add(found.crossings[c].t, found.crossings[c].sphere_id);
-      weight = weight * to_eye()->passing(found.crossings[c].sphere_id);
-      tint = tint * to_eye()->tint(found.crossings[c].sphere_id);
+      if (depth == 1 && !passing_.empty()) passing_[static_cast<std::size_t>(from)] = ray.weight;
+      // The background behind what a primary ray crosses is left out where the picture gets opacity instead.
+      const bool crosses = found.first[k] < found.first[k + 1];
+      if (settings_.without_background && depth == 1 && found.end_id[k] == kNothing && crosses)
+        coverage_[static_cast<std::size_t>(from)] = 1 - ray.weight;
+      else
+        add(found.end[k], found.end_id[k]);
     }
-    if (depth == 1 && !passing_.empty()) passing_[static_cast<std::size_t>(from)] = weight;
-    // The background behind what a primary ray crosses is left out where the picture gets opacity instead.
-    const std::int64_t end_id = found.end_id[static_cast<std::size_t>(k)];
-    const bool crosses = found.first[static_cast<std::size_t>(k)] < found.first[static_cast<std::size_t>(k) + 1];
-    if (settings_.without_background && depth == 1 && end_id == kNothing && crosses)
-      coverage_[static_cast<std::size_t>(from)] = 1 - weight;
-    else
-      add(found.end[static_cast<std::size_t>(k)], end_id);
+    left.resize(kept);
   }
 }
 
@@ -392,24 +422,26 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
 void WaveIntegrator::ask_for_light(const RaySpan& rays, RayOrder order, std::uint8_t* hidden, Columns3<double>& share,
                                    std::int64_t first) const {
   if (to_light() == nullptr) return tracer_.occluded(rays, order, hidden);
-  static thread_local std::vector<double> ends;
-  static thread_local std::vector<Vec3d> shares;
   to_light()->hides(rays, order, hidden);
 
   // Rays that are hidden anyway get an end before their start, so they cross nothing.
-  ends.resize(static_cast<std::size_t>(rays.count));
-  for (std::int64_t i = 0; i < rays.count; ++i) {
-    const double end = rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<double>::infinity();
-    ends[static_cast<std::size_t>(i)] = hidden[i] != 0 ? -std::numeric_limits<double>::infinity() : end;
-  }
   RaySpan open = rays;
-  open.t_max = ends.data();
-  shares.resize(static_cast<std::size_t>(rays.count));
-  to_light()->find_shares(open, order, shares.data());
+  if (std::memchr(hidden, 1, static_cast<std::size_t>(rays.count)) != nullptr) {
+    static thread_local std::vector<double> ends;
+    ends.resize(static_cast<std::size_t>(rays.count));
+    for (std::int64_t i = 0; i < rays.count; ++i) {
+      const double end = rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<double>::infinity();
+      ends[static_cast<std::size_t>(i)] = hidden[i] != 0 ? -std::numeric_limits<double>::infinity() : end;
+    }
+    open.t_max = ends.data();
+  }
+  double* columns[3] = {};
+  for (int channel = 0; channel < channels(); ++channel) columns[channel] = share[channel].data() + first;
+  to_light()->find_shares(open, order, columns);
   for (std::int64_t ray = 0; ray < rays.count; ++ray) {
-    const Vec3d arriving = shares[static_cast<std::size_t>(ray)];
-    for (int channel = 0; channel < channels(); ++channel) share[channel][first + ray] = arriving[channel];
-    if (arriving == Vec3d{}) hidden[ray] = 1;
+    bool any = false;
+    for (int channel = 0; channel < channels(); ++channel) any |= columns[channel][ray] != 0;
+    if (!any) hidden[ray] = 1;
   }
 }
 

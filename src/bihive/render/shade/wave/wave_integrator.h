@@ -122,6 +122,8 @@ class WaveIntegrator {
   void trace_layers(const WavePart& rays, int depth, WaveBuffers& buffers);
   void put_layers(const WavePart& rays, const CrossingBuffers& found, std::int64_t first, std::int64_t end, int depth,
                   WaveBuffers& buffers);
+  void put_layers_together(const WavePart& rays, const CrossingBuffers& found, std::int64_t first, std::int64_t end,
+                           int depth, WaveBuffers& buffers);
   void follow(const WavePart& rays, int depth, WaveBuffers& buffers);
   void shade(const WavePart& rays, int depth, const HitSpan& hits, Wave* next, WaveBuffers& buffers);
   void find_levels(WaveBuffers& buffers) const;
@@ -142,6 +144,9 @@ class WaveIntegrator {
   const TransparentSpheres* to_light() const {
     return settings_.transparency != nullptr ? settings_.transparency->to_light.get() : nullptr;
   }
+  // Whether the layers of neighbours may lie together: each owner has one ray then, and its light is added at the end
+  // of the generation, so the order of its surfaces stays.
+  bool layers_go_together() const { return !scene_.spawns_rays && (with_shadows() || with_ambient()); }
   // Columns of what arrives from lights and surroundings: colours, if transparent spheres colour it.
   int channels() const { return to_light() != nullptr && to_light()->has_tints() ? 3 : 1; }
   bool is_soft(const PointLight& light) const { return settings_.light_points != nullptr && light.radius > 0; }
