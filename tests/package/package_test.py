@@ -125,9 +125,10 @@ class Packages(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("lintian"), "lintian is not installed")
     def test_lintian_has_no_remark_that_is_not_explained(self):
-        # A build without the page has no use for the explanation that the page needs.
+        # A build without the page has no use for the explanation that the page needs. Letters of machine code that look
+        # like misspelt words change with each compiler; scripts/check_words reads the sources.
         said = subprocess.run(
-            ["lintian", "--allow-root", "--display-info", "--pedantic", "--suppress-tags", "unused-override", *map(str, SCRATCH.glob("*.deb"))],
+            ["lintian", "--allow-root", "--display-info", "--pedantic", "--suppress-tags", "unused-override,spelling-error-in-binary", *map(str, SCRATCH.glob("*.deb"))],
             text=True, capture_output=True, timeout=900)
         self.assertEqual((said.returncode, said.stdout), (0, ""), said.stderr)
 
