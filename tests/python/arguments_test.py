@@ -184,7 +184,7 @@ class Arguments(ProgramTest):
 
     def test_every_public_name_is_tried(self):
         tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs",
-                 "again", "angle", "colour_map", "convert", "dihedral", "distance", "film", "linear", "read", "render", "select", "stats", "verify", "view"}
+                 "again", "angle", "colour_map", "convert", "dihedral", "distance", "film", "linear", "read", "render", "save_page", "select", "stats", "verify", "view"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
@@ -268,6 +268,19 @@ class Arguments(ProgramTest):
         for name in ("source", "port", "browser"):
             for label, value in HOSTILE.items():
                 self.judge(bh.view, {"source": self.path("missing.xyz"), name: value}, name if name != "source" else "", label)
+
+    def test_save_page(self):
+        os.environ["BIHIVE_PAGE"] = self.path("nowhere")
+        self.addCleanup(os.environ.pop, "BIHIVE_PAGE")
+
+        def save_page(source=self.spheres, path=self.path("a.html"), **options):
+            try:
+                return bh.save_page(source, path, **options)
+            except bh.MissingError:
+                return None
+
+        save_page.__signature__ = inspect.signature(bh.save_page)
+        self.try_all(save_page, {"source": self.spheres, "path": self.path("a.html")}, options=["samples", "floor"])
 
     def test_cameras_and_looks(self):
         for kind, key in ((bh.Orthographic, "camera"), (bh.Perspective, "camera"), (bh.Look, "looks"), (bh.Style, "style")):

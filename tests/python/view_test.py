@@ -40,6 +40,22 @@ class View(ProgramTest):
         self.assertEqual(again["charge"].tolist(), [1, 2, 3])
         page.close()
 
+    def test_a_page_with_spheres_from_memory(self):
+        places = "".join(f'<script id="page_{name}" type="text/plain"></script>\n' for name in ("state", "file", "trajectory"))
+        self.write("page/one_file.html", "<!doctype html>" + places)
+        s = bh.Spheres(np.eye(3), radius=0.5, name="three")
+        bh.save_page(s, self.path("out.html"), camera="top", floor="shadow", looks=bh.Look([0], colour="red"))
+        with open(self.path("out.html"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn('data-name="three.extxyz"', text)
+        with self.assertRaisesRegex(bh.UsageError, "no_such"):
+            bh.save_page(s, self.path("other.html"), no_such=1)
+        with self.assertRaisesRegex(bh.UsageError, "camera"):
+            bh.save_page(s, self.path("other.html"), camera=bh.render(s, size=(8, 8)))
+        with self.assertRaises(FileNotFoundError):
+            bh.save_page(self.path("missing.xyz"), self.path("other.html"))
+        self.assertFalse(os.path.exists(self.path("other.html")))
+
     def test_files_and_built_in_names(self):
         self.write("a.csv", "x,y,z\n0,0,0\n")
         with bh.view(self.path("a.csv"), browser=False) as page:

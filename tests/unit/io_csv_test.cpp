@@ -166,6 +166,14 @@ TEST(Csv, NamesWhatIsWrongWithAHeader) {
   EXPECT_NE(error_of(wide + "\n1,2,3\n", "a.csv").find("a.csv:1: expected at most 1000 columns"), std::string::npos);
 }
 
+TEST(Csv, TellsTextForPeople) {
+  EXPECT_EQ(
+      error_of("Dear Anna,\n\nwe met on 3 May 2026.\nYours, Ben\n", "letter.txt"),
+      "letter.txt: this looks like text for people: no line of it has three numbers; a table of spheres has a line "
+      "for each, with x, y and z");
+  EXPECT_NE(error_of("a,b,c\n1,2,3\n", "table.csv").find("there is no x in the header"), std::string::npos);
+}
+
 TEST(Csv, MakesNamesPrintable) {
   const SphereFile file = read_text("x,y,z,\x1b[31mred,Gr\xf6\xdf\x65,\u00c5\n1,2,3,4,5,6\n", "a.csv");
   EXPECT_EQ(number_names(file), (std::vector<std::string>{"?[31mred", "Gr??e", "\u00c5"}));

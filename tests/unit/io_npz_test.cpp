@@ -52,6 +52,14 @@ TEST(Npz, SaysWhatIsWrong) {
     other.replace(at, 9, "somethin_");
   EXPECT_EQ(
       error_of(other, "a").rfind("a: no array of the NPZ file holds the places: it has somethin_ charge; name", 0), 0u);
+  // The files of another program.
+  std::string texts = archive("places.npz");
+  for (std::size_t at = texts.find(".npy"); at != std::string::npos; at = texts.find(".npy"))
+    texts.replace(at, 4, ".txt");
+  EXPECT_EQ(
+      error_of(texts, "a.zip"),
+      "a.zip: this is a ZIP archive without arrays of NumPy; it has positions.txt, charge.txt; unpack it, and take the "
+      "file with the spheres");
   // Any changed byte gives an answer or an error.
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string damaged = whole;

@@ -48,7 +48,8 @@ ViewerLook look_of(const ViewOptions& options) {
 void put_parameters(const ViewOptions& options, ordered_json& settings) {
   Overrides chosen = options.picture;
   if (chosen.has("length_unit") && !chosen.is_on("scale_bar"))
-    fail_usage("--length-unit is for the scale bar, and the picture has none", "add --scale-bar, or leave it out");
+    fail_usage(setting_name("length_unit") + " is for the scale bar, and the picture has none",
+               "add " + setting_name("scale_bar") + ", or leave it out");
   // Without labels: only the requested ones.
   for (const Parameter& parameter : picture_parameters())
     if (options.labels.none && parameter.group == ParameterGroup::labels && !chosen.has(parameter.id))
@@ -95,7 +96,8 @@ void put_camera(const ViewOptions& options, bool with_side, ordered_json& settin
   put(camera, "aperture", options.aperture);
   if (options.focus) {
     if (options.aperture.value_or(0) == 0)
-      fail_usage("--focus changes nothing without an aperture", "give the radius of the lens by --aperture");
+      fail_usage(setting_name("focus") + " changes nothing without an aperture",
+                 "give the radius of the lens by " + setting_name("aperture"));
     if (const double* const distance = std::get_if<double>(&*options.focus))
       camera["focus"] = *distance;
     else
@@ -109,9 +111,10 @@ void check_style(const ViewOptions& options) {
   const std::string& name = options.style.name;
   if (name.empty()) return;
   if (const Result<Style> style = style_named(name); !style)
-    fail_usage("--style: " + style.error().message, "see bihive styles");
+    fail_usage(setting_name("style") + ": " + style.error().message, "see bihive styles");
   const std::string& input = options.input.input;
-  if (is_built_in_scene(input) && input != "demo") fail_usage("--style is for files, not for " + input);
+  if (is_built_in_scene(input) && input != "demo")
+    fail_usage(setting_name("style") + " is for files, not for " + input);
 }
 
 }  // namespace
@@ -137,7 +140,7 @@ void check_shown(const ViewOptions& options) {
   check_style(options);
   const std::string& colours = options.looks.element_colours;
   if (!colours.empty() && !element_colours_called(colours))
-    fail_usage("--element-colours: there are no element colours \"" + colours + "\"",
+    fail_usage(setting_name("element_colours") + ": there are no element colours \"" + colours + "\"",
                "there are soft, jmol and cpk; files of colours are for bihive render");
 }
 

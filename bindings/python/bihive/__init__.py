@@ -29,7 +29,7 @@ from ._picture import Picture
 from ._render import render
 from ._spheres import Spheres, colour_map, convert, read, select, stats
 from ._tree import Tree
-from ._view import View, view
+from ._view import View, save_page, view
 
 __all__ = [
     "ClosestHits",
@@ -63,6 +63,7 @@ __all__ = [
     "linear",
     "read",
     "render",
+    "save_page",
     "select",
     "stats",
     "verify",

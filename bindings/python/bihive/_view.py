@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 
 from ._adapt import spheres_of
-from ._checks import boolean
-from ._errors import InputError, MissingError, UsageError, bad_argument, found
+from ._camera import Look, Style
+from ._checks import boolean, path_of
+from ._errors import InputError, MissingError, UsageError, bad_argument, found, shortened
 from ._film import environment, program
+from ._picture import Picture
+from ._render import Camera, looks_of, picture_words
 from ._spheres import Spheres, check_readable
 
 if TYPE_CHECKING:
     import subprocess
 
-__all__ = ["View", "view"]
+    import numpy.typing as npt
+    from typing_extensions import Unpack
+
+    from ._option_types import RenderOptions
+
+__all__ = ["View", "save_page", "view"]
 
 
 _LONGEST_NAME = 60  # characters: a folder takes names of 255 bytes
@@ -90,6 +98,58 @@ def _command_of(spheres: Spheres, folder: str, descriptors: list[int]) -> list[s
     return [link]
 
 
+def _input_of(source: Any, folder: str, descriptors: list[int]) -> tuple[list[str], Optional[int]]:
+    """The input of `bihive web`, and the number of spheres that lie in memory."""
+    if isinstance(source, (str, os.PathLike)):
+        return [check_readable(source, "source")], None
+    spheres = spheres_of(source, "source")
+    return _command_of(spheres, folder, descriptors), len(spheres)
+
+
+def _failure(code: int, said: str, command: str) -> Exception:
+    errors = [one for one in said.splitlines() if one.startswith("bihive: error: ")]
+    text = errors[-1].removeprefix("bihive: error: ") if errors else f"{command} ended with {code}"
+    text = shortened(text)
+    return {1: InputError, 3: MissingError}.get(code, UsageError)(text)
+
+
+def save_page(
+    source: Any,
+    path: Union[str, os.PathLike[str]],
+    *,
+    camera: Camera = None,
+    style: Any = None,
+    select: Union[str, npt.ArrayLike, None] = None,
+    looks: Union[Look, Sequence[Look], None] = None,
+    **options: Unpack[RenderOptions],
+) -> None:
+    """Writes the page with these spheres into one HTML file of some 2 MB plus data, which opens without a network or a server.
+
+    source: as of view(). path: whole or not at all. Other arguments: those of render() that `bihive web` takes; camera and style
+        are names, an Orthographic or a Perspective.
+
+    Raises MissingError where the program ``bihive`` or its page (``make web``) is missing.
+    """
+    import subprocess
+    import tempfile
+
+    out = path_of("path", path)
+    if isinstance(camera, Picture) or isinstance(style, (dict, Style)):
+        raise bad_argument("camera" if isinstance(camera, Picture) else "style", "of a page is a name")
+    of_picture: dict[str, Any] = dict(options)
+    folder = tempfile.mkdtemp(prefix="bihive_view_")
+    descriptors: list[int] = []
+    try:
+        words, count = _input_of(source, folder, descriptors)
+        chosen = picture_words(select, camera, style, looks_of(looks, of_picture), of_picture, count)
+        command = [program(), "web", "--html", out, *chosen, "--", *words]
+        done = subprocess.run(command, env=environment(), stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+        if done.returncode != 0:
+            raise _failure(done.returncode, done.stderr, "bihive web")
+    finally:
+        _let_go(folder, descriptors)
+
+
 def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = None) -> View:
     """Opens the page with these spheres: they turn, are coloured, selected and saved there. No file is written.
 
@@ -114,19 +174,13 @@ def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = N
     descriptors: list[int] = []
     server: Optional[subprocess.Popen[str]] = None
     try:
-        if isinstance(source, (str, os.PathLike)):
-            words = [check_readable(source, "source")]
-        else:
-            words = _command_of(spheres_of(source, "source"), folder, descriptors)
+        words, _ = _input_of(source, folder, descriptors)
         words = [program(), "web", "--json", "--port", str(port or 0), *([] if browser else ["--no-browser"]), "--", *words]
         server = subprocess.Popen(words, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert server.stdout is not None and server.stderr is not None
         line = server.stdout.readline()
         if not line:
-            code = server.wait()
-            errors = [one for one in server.stderr.read().splitlines() if one.startswith("bihive: error: ")]
-            text = errors[-1].removeprefix("bihive: error: ") if errors else f"bihive web ended with {code}"
-            raise {1: InputError, 3: MissingError}.get(code, UsageError)(text)
+            raise _failure(server.wait(), server.stderr.read(), "bihive web")
         made = View(server, json.loads(line)["url"], folder, descriptors)
     except BaseException:
         if server is not None:

@@ -135,7 +135,7 @@ void TransparentSpheres::find_depths(std::int64_t id, OpticalDepth* row) const {
 }
 
 // Where what a sphere lets through is known only once it is hit: the depths of spheres in no class, and the shares of
-// the first of each class, which `passed` is multiplied by.
+// the first of each class, which `passed` is multiplied by if there are classes.
 void TransparentSpheres::sum_of_hits(const RaySpan& rays, RayOrder order, const DepthSums& sums, double* passed) const {
   static thread_local std::vector<RayHit> found;
   transparent_->all_hits(rays, order, found);
@@ -155,7 +155,8 @@ void TransparentSpheres::sum_of_hits(const RaySpan& rays, RayOrder order, const 
       find_depths(id, row);
       for (int c = 0; c < columns(); ++c) sums.columns[c][ray] = sum_of_depths(sums.columns[c][ray], row[c]);
     }
-    for (const double one : of_class) passed[ray] *= one;
+    if (has_classes_)
+      for (const double one : of_class) passed[ray] *= one;
   }
 }
 

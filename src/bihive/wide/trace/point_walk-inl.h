@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -212,8 +211,9 @@ class PointWalk {
     constexpr std::uint64_t kSlots = kWidth - 1;
     // With other bits an infinite key would be no number.
     constexpr double kMostKey = 1e300;
-    const auto end = std::bit_cast<std::uint64_t>(std::min(largest, kMostKey) + 0.0);
-    const auto last = hn::Set(d, std::bit_cast<double>(largest < 0 ? end & ~kSlots : end | kSlots));
+    const auto end = hn::BitCast(bits, hn::Set(d, std::min(largest, kMostKey) + 0.0));
+    const auto slots_of_all = hn::Set(bits, kSlots);
+    const auto last = hn::BitCast(d, largest < 0 ? hn::AndNot(slots_of_all, end) : hn::Or(end, slots_of_all));
     alignas(64) double different[kWidth];
     std::size_t near = 0;
     for (int i = 0; i < kWidth; i += kLanes) {

@@ -49,6 +49,20 @@ std::vector<TableColumn> columns_of_header(const std::vector<std::string>& names
   return columns;
 }
 
+// Whether one of the first lines has three numbers, whatever separates them. Text for people has none.
+bool any_row(std::string_view text) {
+  std::string spaced(text.substr(0, 65536));
+  for (char& c : spaced)
+    if (c == ',' || c == ';' || c == '"') c = ' ';
+  TextScanner lines(spaced, "");
+  while (lines.next_line()) {
+    int numbers = 0;
+    for (std::string_view field; numbers < 3 && lines.next_field(field);) numbers += parse_double(field) ? 1 : 0;
+    if (numbers == 3) return true;
+  }
+  return false;
+}
+
 Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std::int64_t frame,
                             const ColumnChoice& choice) {
   TextScanner scanner(text, file);
@@ -74,7 +88,10 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
   std::vector<TableColumn> columns = has_header ? columns_of_header(fields) : columns_without_names(fields.size());
   if (const std::string fault = choose_columns(choice, columns); !fault.empty()) return scanner.line_error(fault);
   SphereTable table(columns);
-  if (const std::string fault = table.columns_fault(); !fault.empty())
+  if (const std::string fault = table.columns_fault(); !fault.empty() && has_header && !any_row(text))
+    return Error{"this looks like text for people: no line of it has three numbers", file, 0, 0,
+                 "a table of spheres has a line for each, with x, y and z"};
+  else if (!fault.empty())
     return scanner.line_error(fault + " in the header " + quote(table.column_names()), how_to_name_columns());
   table.reserve(scanner.lines_left() + 1, scanner.bytes_left());
 

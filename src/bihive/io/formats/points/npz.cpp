@@ -26,6 +26,17 @@ Result<RawSpheres> read_npz(std::string_view bytes, const std::string& file, std
   const Result<std::vector<ZipMember>> members = zip_members(bytes, file);
   if (!members) return members.error();
 
+  // Other programs pack their files into such archives too.
+  std::string others;
+  bool any = members->empty();
+  for (const ZipMember& member : *members) {
+    any = any || !array_name(member).empty();
+    if (others.size() < 200) others += (others.empty() ? "" : ", ") + printable(member.name);
+  }
+  if (!any)
+    return Error{"this is a ZIP archive without arrays of NumPy; it has " + others, file, 0, 0,
+                 "unpack it, and take the file with the spheres"};
+
   // Read the arrays of numbers.
   NamedArrays all{
       "NPZ",
