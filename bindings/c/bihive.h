@@ -115,11 +115,15 @@ enum { BIHIVE_SURFACE = 0, BIHIVE_CENTRE = 1 };
 
 /* The `most` nearest spheres of each point, none farther than `within` (INFINITY: any), by distance, then id: entries
  * i * most to i * most + most - 1 belong to point i. Missing ones: infinity and -1. `mask` has a byte for each sphere:
- * 0 passes over it; NULL: all. `exclude` has for each point a sphere that does not count, such as the point's own, or
- * -1; of its images the nearest. NULL: none. */
+ * 0 passes over it; NULL: all. */
 BIHIVE_API int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
-                              int distance_to, const uint8_t* mask, const int64_t* exclude, int threads,
-                              double* distances, int64_t* spheres);
+                              int distance_to, const uint8_t* mask, int threads, double* distances, int64_t* spheres);
+
+/* The same of the other spheres: `exclude` has for each point one that does not count, such as the point's own, or -1;
+ * of its images the nearest. NULL: none. */
+BIHIVE_API int bihive_nearest_others(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most,
+                                     double within, int distance_to, const uint8_t* mask, const int64_t* exclude,
+                                     int threads, double* distances, int64_t* spheres);
 
 /* A list of spheres for each ray or point: those of number i are entries begin[i] to before begin[i + 1]. */
 typedef struct bihive_lists bihive_lists;
@@ -132,13 +136,18 @@ BIHIVE_API void bihive_lists_free(bihive_lists* lists);
  * that contain the point (limits NULL: 0 for all), a radius those that overlap the ball around it; to the centre, a
  * radius gives the centres in the ball. */
 BIHIVE_API int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
-                             int distance_to, const uint8_t* mask, const int64_t* exclude, int threads,
-                             bihive_lists** lists);
+                             int distance_to, const uint8_t* mask, int threads, bihive_lists** lists);
+/* `exclude`: as of bihive_nearest_others(). */
+BIHIVE_API int bihive_within_others(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
+                                    int distance_to, const uint8_t* mask, const int64_t* exclude, int threads,
+                                    bihive_lists** lists);
 
 /* The lengths of these lists alone: counts[i] spheres are that near point i. */
 BIHIVE_API int bihive_count_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
-                                   int distance_to, const uint8_t* mask, const int64_t* exclude, int threads,
-                                   int64_t* counts);
+                                   int distance_to, const uint8_t* mask, int threads, int64_t* counts);
+BIHIVE_API int bihive_count_others_within(const bihive_tree* tree, const double* xyz, int64_t count,
+                                          const double* limits, int distance_to, const uint8_t* mask,
+                                          const int64_t* exclude, int threads, int64_t* counts);
 
 /* Every pair of spheres at a distance of at most `reach`, once: the list of sphere i has its partners with larger ids.
  * Between centres, or with BIHIVE_SURFACE between surfaces (0: those that touch or overlap). In a periodic cell a

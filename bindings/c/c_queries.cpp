@@ -306,9 +306,9 @@ int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int thread
   });
 }
 
-int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
-                   int distance_to, const uint8_t* mask, const int64_t* exclude, int threads, double* distances,
-                   int64_t* spheres) {
+int bihive_nearest_others(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
+                          int distance_to, const uint8_t* mask, const int64_t* exclude, int threads, double* distances,
+                          int64_t* spheres) {
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     if (count > 0 && (distances == nullptr || spheres == nullptr)) return failed("there is no place for the spheres");
@@ -319,6 +319,11 @@ int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, in
     std::copy(nearest->sphere_id.begin(), nearest->sphere_id.end(), spheres);
     return kDone;
   });
+}
+
+int bihive_nearest(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
+                   int distance_to, const uint8_t* mask, int threads, double* distances, int64_t* spheres) {
+  return bihive_nearest_others(tree, xyz, count, most, within, distance_to, mask, nullptr, threads, distances, spheres);
 }
 
 const int64_t* bihive_lists_begin(const bihive_lists* lists) {
@@ -337,8 +342,9 @@ void bihive_lists_free(bihive_lists* lists) {
   delete lists;
 }
 
-int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits, int distance_to,
-                  const uint8_t* mask, const int64_t* exclude, int threads, bihive_lists** lists) {
+int bihive_within_others(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
+                         int distance_to, const uint8_t* mask, const int64_t* exclude, int threads,
+                         bihive_lists** lists) {
   if (lists == nullptr) return failed("there is no place for the lists");
   *lists = nullptr;
   return guarded([&] {
@@ -353,8 +359,9 @@ int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, con
   });
 }
 
-int bihive_count_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
-                        int distance_to, const uint8_t* mask, const int64_t* exclude, int threads, int64_t* counts) {
+int bihive_count_others_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
+                               int distance_to, const uint8_t* mask, const int64_t* exclude, int threads,
+                               int64_t* counts) {
   return guarded([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     if (count > 0 && counts == nullptr) return failed("there is no place for the counts");
@@ -365,6 +372,16 @@ int bihive_count_within(const bihive_tree* tree, const double* xyz, int64_t coun
     std::copy(found->begin(), found->end(), counts);
     return kDone;
   });
+}
+
+int bihive_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits, int distance_to,
+                  const uint8_t* mask, int threads, bihive_lists** lists) {
+  return bihive_within_others(tree, xyz, count, limits, distance_to, mask, nullptr, threads, lists);
+}
+
+int bihive_count_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
+                        int distance_to, const uint8_t* mask, int threads, int64_t* counts) {
+  return bihive_count_others_within(tree, xyz, count, limits, distance_to, mask, nullptr, threads, counts);
 }
 
 int bihive_pairs(const bihive_tree* tree, double reach, int distance_to, const uint8_t* mask, int threads,

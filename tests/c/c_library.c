@@ -76,13 +76,13 @@ static void test_update(void) {
   EXPECT(bihive_tree_new(kPlaces, kRadii, 4, 1, &tree) == 0);
   for (int turn = 0; turn < 3; ++turn) {
     EXPECT(bihive_tree_update(tree, moved, NULL, 4, NULL, 1) == 0);
-    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, NULL, 1, &distance, &id) == 0);
+    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, 1, &distance, &id) == 0);
     EXPECT(id == 1 && distance == 1);
     EXPECT(bihive_tree_update(tree, moved, larger, 4, NULL, 1) == 0);
-    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, NULL, 1, &distance, &id) == 0);
+    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, 1, &distance, &id) == 0);
     EXPECT(id == 1 && distance == 0);
     EXPECT(bihive_tree_update(tree, kPlaces, kRadii, 4, NULL, 1) == 0);
-    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, &distance, &id) == 0);
+    EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
     EXPECT(id == 1 && distance == sqrt(13));
   }
 
@@ -94,17 +94,17 @@ static void test_update(void) {
   EXPECT_ERROR(bihive_tree_update(NULL, moved, NULL, 4, NULL, 1), "NULL");
   EXPECT_ERROR(bihive_tree_update(tree, moved, NULL, 4, vectors, 1), "bihive_tree_new_in_cell");
   EXPECT(bihive_tree_size(tree) == 4);
-  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, &distance, &id) == 0);
+  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
   EXPECT(id == 1 && distance == sqrt(13));
   bihive_tree_free(tree);
 
   /* The cell stays, or gets other vectors. The image of sphere 2 at -12, and the one of sphere 0 at -10. */
   EXPECT(bihive_tree_new_in_cell(moved, kRadii, 4, vectors, 1, &in_cell) == 0);
   EXPECT(bihive_tree_update(in_cell, kPlaces, NULL, 4, NULL, 1) == 0);
-  EXPECT(bihive_nearest(in_cell, beside, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, &distance, &id) == 0);
+  EXPECT(bihive_nearest(in_cell, beside, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
   EXPECT(id == 0 && distance == 1);
   EXPECT(bihive_tree_update(in_cell, kPlaces, NULL, 4, wider, 1) == 0);
-  EXPECT(bihive_nearest(in_cell, beside, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, &distance, &id) == 0);
+  EXPECT(bihive_nearest(in_cell, beside, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &distance, &id) == 0);
   EXPECT(id == 2 && distance == 1);
   bihive_tree_free(in_cell);
 }
@@ -126,7 +126,7 @@ static void test_far_spheres(void) {
   EXPECT(bihive_closest(tree, &rays, 1, t, spheres) == 0);
   EXPECT(spheres[0] == 0 && fabs(t[0] - 9.95) < 1e-6);
   EXPECT(spheres[1] == 1 && fabs(t[1] - 9.95) < 1e-6);
-  EXPECT(bihive_nearest(tree, places, 2, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, distances, spheres) == 0);
+  EXPECT(bihive_nearest(tree, places, 2, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, distances, spheres) == 0);
   EXPECT(spheres[0] == 0 && distances[0] < 1e-7 && spheres[1] == 1 && distances[1] < 1e-7);
   bihive_tree_free(tree);
   EXPECT(bihive_tree_new(wide_places, radii, 2, 1, &tree) == 0);
@@ -191,16 +191,16 @@ static void test_cells(void) {
   bihive_lists* lists = NULL;
   bihive_tree* tree = NULL;
   EXPECT(bihive_tree_new_in_cell(place, &radius, 1, vectors, 0, &tree) == 0);
-  EXPECT(bihive_within(tree, place, 1, &limit, BIHIVE_CENTRE, NULL, NULL, 0, &lists) == 0);
+  EXPECT(bihive_within(tree, place, 1, &limit, BIHIVE_CENTRE, NULL, 0, &lists) == 0);
   if (lists != NULL) EXPECT(bihive_lists_begin(lists)[1] == 13 && bihive_lists_spheres(lists)[12] == 0);
   bihive_lists_free(lists);
-  EXPECT(bihive_nearest(tree, place, 1, 13, INFINITY, BIHIVE_CENTRE, NULL, NULL, 0, distances, spheres) == 0);
+  EXPECT(bihive_nearest(tree, place, 1, 13, INFINITY, BIHIVE_CENTRE, NULL, 0, distances, spheres) == 0);
   EXPECT(distances[0] == 0 && distances[1] == sqrt(2) && distances[12] == sqrt(2) && spheres[12] == 0);
   const int64_t itself = 0; /* its images count */
-  EXPECT(bihive_within(tree, place, 1, &limit, BIHIVE_CENTRE, NULL, &itself, 0, &lists) == 0);
+  EXPECT(bihive_within_others(tree, place, 1, &limit, BIHIVE_CENTRE, NULL, &itself, 0, &lists) == 0);
   if (lists != NULL) EXPECT(bihive_lists_begin(lists)[1] == 12 && bihive_lists_distances(lists)[0] > 1);
   bihive_lists_free(lists);
-  EXPECT_ERROR(bihive_within(tree, place, 1, &infinite, BIHIVE_CENTRE, NULL, NULL, 0, &lists), "million images");
+  EXPECT_ERROR(bihive_within(tree, place, 1, &infinite, BIHIVE_CENTRE, NULL, 0, &lists), "million images");
   EXPECT(bihive_closest(tree, &rays, 0, distances, spheres) == 0);
   EXPECT(spheres[0] == 0 && fabs(distances[0] - 8.9) < 1e-6);
   double at[3], normal[3], exit_at;
@@ -234,14 +234,14 @@ static void test_points(const bihive_tree* tree) {
   int64_t spheres[6];
   bihive_lists* lists = NULL;
 
-  EXPECT(bihive_nearest(tree, points, 3, 2, INFINITY, BIHIVE_SURFACE, NULL, NULL, 0, distances, spheres) == 0);
+  EXPECT(bihive_nearest(tree, points, 3, 2, INFINITY, BIHIVE_SURFACE, NULL, 0, distances, spheres) == 0);
   EXPECT(spheres[0] == 1 && spheres[1] == 3 && distances[0] == -1 && distances[1] == -0.5);
   EXPECT(spheres[2] == 0 && spheres[3] == 1 && distances[2] == 1 && distances[3] == 1);
   EXPECT(spheres[4] == 2 && spheres[5] == 1 && distances[4] == 0.5 && distances[5] == 1.5);
-  EXPECT(bihive_nearest(tree, points, 1, 2, 0.25, BIHIVE_CENTRE, mask, NULL, 1, distances, spheres) == 0);
+  EXPECT(bihive_nearest(tree, points, 1, 2, 0.25, BIHIVE_CENTRE, mask, 1, distances, spheres) == 0);
   EXPECT(spheres[0] == 3 && distances[0] == 0 && spheres[1] == -1 && isinf(distances[1]));
 
-  EXPECT(bihive_within(tree, points, 3, NULL, BIHIVE_SURFACE, NULL, NULL, 0, &lists) == 0);
+  EXPECT(bihive_within(tree, points, 3, NULL, BIHIVE_SURFACE, NULL, 0, &lists) == 0);
   if (lists != NULL) {
     const int64_t* begin = bihive_lists_begin(lists);
     EXPECT(begin[1] == 2 && begin[2] == 2 && begin[3] == 2);
@@ -249,7 +249,7 @@ static void test_points(const bihive_tree* tree) {
     EXPECT(bihive_lists_distances(lists)[1] == -0.5);
   }
   bihive_lists_free(lists);
-  EXPECT(bihive_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, NULL, 2, &lists) == 0);
+  EXPECT(bihive_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, 2, &lists) == 0);
   if (lists != NULL) {
     const int64_t* begin = bihive_lists_begin(lists);
     EXPECT(begin[1] == 1 && begin[2] == 3 && begin[3] == 4);
@@ -257,17 +257,17 @@ static void test_points(const bihive_tree* tree) {
   bihive_lists_free(lists);
 
   int64_t counts[3];
-  EXPECT(bihive_count_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, NULL, 0, counts) == 0);
+  EXPECT(bihive_count_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, 0, counts) == 0);
   EXPECT(counts[0] == 1 && counts[1] == 2 && counts[2] == 1);
-  EXPECT(bihive_count_within(tree, points, 3, NULL, BIHIVE_SURFACE, mask, NULL, 0, counts) == 0);
+  EXPECT(bihive_count_within(tree, points, 3, NULL, BIHIVE_SURFACE, mask, 0, counts) == 0);
   EXPECT(counts[0] == 1 && counts[1] == 0 && counts[2] == 0);
   const int64_t exclude[] = {1, -1, 2};
-  EXPECT(bihive_nearest(tree, points, 3, 1, INFINITY, BIHIVE_SURFACE, NULL, exclude, 0, distances, spheres) == 0);
+  EXPECT(bihive_nearest_others(tree, points, 3, 1, INFINITY, BIHIVE_SURFACE, NULL, exclude, 0, distances, spheres) ==
+         0);
   EXPECT(spheres[0] == 3 && spheres[1] == 0 && spheres[2] == 1 && distances[2] == 1.5);
-  EXPECT(bihive_count_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, exclude, 0, counts) == 0);
+  EXPECT(bihive_count_others_within(tree, points, 3, limits, BIHIVE_SURFACE, NULL, exclude, 0, counts) == 0);
   EXPECT(counts[0] == 0 && counts[1] == 2 && counts[2] == 0);
-  EXPECT_ERROR(bihive_count_within(tree, points, 3, NULL, BIHIVE_SURFACE, NULL, NULL, 0, NULL),
-               "no place for the counts");
+  EXPECT_ERROR(bihive_count_within(tree, points, 3, NULL, BIHIVE_SURFACE, NULL, 0, NULL), "no place for the counts");
 
   EXPECT(bihive_pairs(tree, 2, BIHIVE_SURFACE, NULL, 0, &lists) == 0);
   if (lists != NULL) {
@@ -280,12 +280,12 @@ static void test_points(const bihive_tree* tree) {
   bihive_lists_free(lists);
   EXPECT_ERROR(bihive_pairs(tree, NAN, BIHIVE_CENTRE, NULL, 0, &lists), "must be a number");
 
-  EXPECT_ERROR(bihive_nearest(tree, bad, 1, 1, 1, BIHIVE_SURFACE, NULL, NULL, 0, distances, spheres),
+  EXPECT_ERROR(bihive_nearest(tree, bad, 1, 1, 1, BIHIVE_SURFACE, NULL, 0, distances, spheres),
                "point 0: y must be finite");
-  EXPECT_ERROR(bihive_nearest(tree, points, 3, 0, 1, BIHIVE_SURFACE, NULL, NULL, 0, distances, spheres), "at least 1");
-  EXPECT_ERROR(bihive_nearest(tree, points, 3, 1, 1, 7, NULL, NULL, 0, distances, spheres), "BIHIVE_CENTRE");
+  EXPECT_ERROR(bihive_nearest(tree, points, 3, 0, 1, BIHIVE_SURFACE, NULL, 0, distances, spheres), "at least 1");
+  EXPECT_ERROR(bihive_nearest(tree, points, 3, 1, 1, 7, NULL, 0, distances, spheres), "BIHIVE_CENTRE");
   lists = (bihive_lists*)&lists;
-  EXPECT_ERROR(bihive_within(tree, bad, 1, NULL, BIHIVE_SURFACE, NULL, NULL, 0, &lists), "point 0");
+  EXPECT_ERROR(bihive_within(tree, bad, 1, NULL, BIHIVE_SURFACE, NULL, 0, &lists), "point 0");
   EXPECT(lists == NULL);
 }
 

@@ -35,13 +35,13 @@ static int ask_tree(answers* found) {
   if (bihive_tree_size(tree) != kSpheres) return 1;
   if (bihive_closest(tree, &rays, 1, found->t, found->spheres) != 0) return 1;
   if (bihive_occluded(tree, &rays, 2, found->hidden) != 0) return 1;
-  if (bihive_nearest(tree, points, kPoints, kMost, INFINITY, BIHIVE_SURFACE, NULL, NULL, 1, found->distances,
-                     found->near) != 0)
+  if (bihive_nearest(tree, points, kPoints, kMost, INFINITY, BIHIVE_SURFACE, NULL, 1, found->distances, found->near) !=
+      0)
     return 1;
   if (bihive_all_hits(tree, &rays, 1, &lists) != 0) return 1;
   found->hits = bihive_lists_begin(lists)[kRays];
   bihive_lists_free(lists);
-  if (bihive_within(tree, points, kPoints, NULL, BIHIVE_CENTRE, NULL, NULL, 1, &lists) != 0) return 1;
+  if (bihive_within(tree, points, kPoints, NULL, BIHIVE_CENTRE, NULL, 1, &lists) != 0) return 1;
   found->within = bihive_lists_begin(lists)[kPoints];
   bihive_lists_free(lists);
   return 0;

@@ -41,7 +41,7 @@ static pid_t start_busy(void) {
 static int nearest(const bihive_tree* tree) {
   static double distances[kPoints];
   static int64_t ids[kPoints];
-  return bihive_nearest(tree, points, kPoints, 1, INFINITY, 0, 0, 0, kThreads, distances, ids);
+  return bihive_nearest(tree, points, kPoints, 1, INFINITY, 0, 0, kThreads, distances, ids);
 }
 
 static int new_tree(const bihive_tree* unused) {

@@ -52,21 +52,21 @@ static void test_trees(void) {
   bihive_set_progress(hear, &heard);
   EXPECT(bihive_tree_new(xyz, radii, kSpheres, 1, &tree) == 0);
   EXPECT(heard.calls > 0 && heard.falls == 0 && heard.on_other_threads == 0 && heard.last > 0);
-  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, &before, &id_before) == 0);
+  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &before, &id_before) == 0);
 
   /* A cancelled update leaves the tree as it was; the next one succeeds. */
   heard = listen(0);
   EXPECT(bihive_tree_update(tree, moved, NULL, kSpheres, NULL, 1) == BIHIVE_CANCELLED);
   EXPECT(strcmp(bihive_error_text(), "cancelled") == 0);
   EXPECT(heard.calls == 1 && heard.on_other_threads == 0);
-  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, &after, &id_after) == 0);
+  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &after, &id_after) == 0);
   EXPECT(before == after && id_before == id_after);
   heard = listen(0.3);
   EXPECT(bihive_tree_update(tree, moved, NULL, kSpheres, NULL, 2) == BIHIVE_CANCELLED);
   EXPECT(heard.falls == 0);
   heard = listen(2);
   EXPECT(bihive_tree_update(tree, moved, NULL, kSpheres, NULL, 1) == 0);
-  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, NULL, 1, &after, &id_after) == 0);
+  EXPECT(bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_CENTRE, NULL, 1, &after, &id_after) == 0);
   EXPECT(id_after != id_before || after != before);
   bihive_tree_free(tree);
 

@@ -9,7 +9,7 @@ int main(void) {
   int64_t nearest;
   bihive_tree* tree;
   if (bihive_tree_new(spheres, radii, 2, 0, &tree) != 0 ||
-      bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, NULL, 0, &distance, &nearest) != 0) {
+      bihive_nearest(tree, point, 1, 1, INFINITY, BIHIVE_SURFACE, NULL, 0, &distance, &nearest) != 0) {
     fprintf(stderr, "%s\n", bihive_error_text());
     return 1;
   }
