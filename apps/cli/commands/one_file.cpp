@@ -8,7 +8,7 @@
 namespace bihive::cli {
 namespace {
 
-// Of the places in web/src/one_file.ts; data is ASCII there.
+// An empty element that web/src/one_file.ts looks up by its id; its text is ASCII.
 std::string place(const std::string& id) {
   return fmt::format(R"(<script id="{}" type="text/plain"></script>)", id);
 }

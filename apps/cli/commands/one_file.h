@@ -7,7 +7,7 @@
 
 namespace bihive::cli {
 
-/// What the page shows first.
+/// The initial state of the page.
 struct OneFileData {
   std::string state;      ///< JSON, as in start.json; its source names the file
   std::string file_name;  ///< empty: the source is built in

@@ -72,7 +72,7 @@ void write_one_file(const WebOptions& options) {
   if (is_built_in_scene(input.input)) {
     start["source"]["built_in"] = input.input;
   } else {
-    // What cannot be read is told here, not to those who open the page.
+    // Read the input now, so that errors appear here and not when somebody opens the page.
     if (const Input loaded = load_input(input, LooksOfFile::keep); !loaded.files.empty())
       fail_usage(input.input + " needs " + loaded.files.front() + " beside it, and the page holds one file",
                  "name the file of the spheres, with options for the rest");

@@ -157,8 +157,7 @@ std::string describe(const CLI::App& app, const std::vector<std::string>& words)
   if (text.empty())
     fail_usage(
         "bihive describe knows: commands, options [COMMAND], settings, reading, picture, colour-maps, man [COMMAND], "
-        "bash, "
-        "zsh, fish",
+        "bash, zsh, fish",
         "see docs/packages.md");
   return text;
 }

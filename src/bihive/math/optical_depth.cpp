@@ -12,7 +12,8 @@ constexpr double kUnits = 1 << kFractionBits;
 constexpr int kBits = kFractionBits / 2;  // of a table
 constexpr int kEntries = 1 << kBits;
 
-// 2^-(i / 2^11) and 2^-(i / 2^22) for i from 0 to 2047, of which the fraction of a depth is one each, and 2^-i.
+// Powers of two by table: 2^-i for the whole halvings of a depth, and 2^-(i / 2^11) and 2^-(i / 2^22) for the upper and
+// lower half of its fraction.
 struct Tables {
   double coarse[kEntries], fine[kEntries], whole[(kDeepest >> kFractionBits) + 1];
 

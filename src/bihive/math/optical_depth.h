@@ -1,5 +1,5 @@
-// Optical depth in fixed point: what several layers let through is the sum of their depths, and a sum of integers does
-// not depend on the order of the layers.
+// Optical depth in fixed point. The depths of layers add up, and a sum of integers does not depend on their order, so
+// the transmittance of many layers has the same bits in every order.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,19 @@ namespace bihive {
 /// In units of 2^-22 halvings of the light.
 using OpticalDepth = std::uint32_t;
 
-/// Of one layer at most: 64 halvings.
+/// The largest depth of one layer: 64 halvings.
 constexpr OpticalDepth kDeepestLayer = OpticalDepth{64} << 22;
-/// Of all layers together at most: 256 halvings, where a sum stays.
+/// The largest sum: 256 halvings. Sums are clamped to it.
 constexpr OpticalDepth kDeepest = OpticalDepth{256} << 22;
 
-/// The depth of a layer that lets this share through, 0 to 1; 0 of 1. transmittance() gives the share back to 9e-8,
-/// relatively, from 2^-64 up.
+/// The depth of a layer with this transmittance, 0 to 1. transmittance() of it differs by at most 9e-8, relatively, for
+/// shares of at least 2^-64.
 OpticalDepth optical_depth(double share);
 
-/// The share that gets through, 2^(-depth / 2^22), to 1e-14 relatively; 1 of depth 0.
+/// 2^(-depth / 2^22), with a relative error of at most 1e-14; exactly 1 for depth 0.
 double transmittance(OpticalDepth depth);
 
-/// Of two bodies, one after the other, neither deeper than kDeepest.
+/// The depth of both, clamped to kDeepest; each is at most kDeepest.
 inline OpticalDepth sum_of_depths(OpticalDepth a, OpticalDepth b) {
   return std::min(a + b, kDeepest);
 }

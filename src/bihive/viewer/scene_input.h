@@ -16,11 +16,10 @@
 
 namespace bihive {
 
-/// What a frame keeps of another one: the ranges of colours by the same numbers, as Scene::coloured_by, and where the
-/// look's floor lies.
+/// State carried over from another frame of a trajectory, so that colours and floor do not jump.
 struct KeptOfFrame {
-  const std::vector<ColourBy>* ranges = nullptr;
-  std::optional<Plane> floor{};
+  const std::vector<ColourBy>* ranges = nullptr;  ///< as Scene::coloured_by
+  std::optional<Plane> floor{};                   ///< of the look
 };
 
 class SceneInput {

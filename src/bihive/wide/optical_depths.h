@@ -1,7 +1,8 @@
-// What the spheres along rays let through, as the sum of their optical depths: a query for all hits that need not say
-// which, nor where, and so takes a fraction of the time of all_hits().
+// The optical depth along rays: the sum over all spheres that a ray hits. Neither the hits nor their order are needed,
+// so it takes a fraction of the time of all_hits().
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "bihive/math/optical_depth.h"
@@ -25,9 +26,12 @@ struct SphereDepths {
 struct DepthSums {
   OpticalDepth* columns[3] = {};
 
-  void add(std::int64_t ray, const SphereDepths& depths, std::int64_t sphere_id) const {
-    const OpticalDepth* const row = depths.row(sphere_id);
-    for (int c = 0; c < depths.columns; ++c) columns[c][ray] = sum_of_depths(columns[c][ray], row[c]);
+  void clear(std::int64_t rays, int count) const {
+    for (int c = 0; c < count; ++c) std::fill_n(columns[c], rays, OpticalDepth{0});
+  }
+  /// Adds a row of `count` depths to the sums of a ray.
+  void add(std::int64_t ray, const OpticalDepth* row, int count) const {
+    for (int c = 0; c < count; ++c) columns[c][ray] = sum_of_depths(columns[c][ray], row[c]);
   }
 };
 

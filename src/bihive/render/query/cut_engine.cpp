@@ -205,7 +205,7 @@ void CutEngine::optical_depths(const RaySpan& rays, RayOrder order, const Sphere
       found.clear();
       All all{*cuts_, {i, found}};
       look_at(*balls, rays.at(i), all);
-      for (const RayHit& hit : found) sums.add(i, depths, hit.sphere_id);
+      for (const RayHit& hit : found) sums.add(i, depths.row(hit.sphere_id), depths.columns);
     });
 }
 

@@ -440,8 +440,8 @@ void ImageEngine::optical_depths(const RaySpan& rays, RayOrder order, const Sphe
                                  const DepthSums& sums) const {
   static thread_local std::vector<RayHit> found;
   all_hits(rays, order, found);
-  for (int c = 0; c < depths.columns; ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
-  for (const RayHit& hit : found) sums.add(hit.ray, depths, whole_->stored_id(hit.sphere_id));
+  sums.clear(rays.count, depths.columns);
+  for (const RayHit& hit : found) sums.add(hit.ray, depths.row(whole_->stored_id(hit.sphere_id)), depths.columns);
 }
 
 }  // namespace bihive

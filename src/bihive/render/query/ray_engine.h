@@ -38,8 +38,8 @@ class RayEngine {
                               const DepthSums& sums) const {
     static thread_local std::vector<RayHit> found;
     all_hits(rays, order, found);
-    for (int c = 0; c < depths.columns; ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
-    for (const RayHit& hit : found) sums.add(hit.ray, depths, hit.sphere_id);
+    sums.clear(rays.count, depths.columns);
+    for (const RayHit& hit : found) sums.add(hit.ray, depths.row(hit.sphere_id), depths.columns);
   }
 
   /// The tree of all spheres (of the stored ones, where there are images). Null: the engine has no such tree.

@@ -128,7 +128,7 @@ void SubsetEngine::all_hits(const RaySpan& rays, RayOrder order, std::vector<Ray
 
 void SubsetEngine::optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
                                   const DepthSums& sums) const {
-  BIHIVE_CHECK(depths.number_of == nullptr);  // of the whole set's ids
+  BIHIVE_CHECK(depths.number_of == nullptr);  // rows are indexed by ids of the whole set
   of_subset_->optical_depths(translated(rays), order, {depths.rows, depths.columns, subset_->whole_ids()}, sums);
 }
 

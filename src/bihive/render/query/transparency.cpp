@@ -134,13 +134,13 @@ void TransparentSpheres::find_depths(std::int64_t id, OpticalDepth* row) const {
   for (int c = 0; c < columns(); ++c) row[c] = optical_depth(passing(id) * tint[c]);
 }
 
-// Where what a sphere lets through is known only once it is hit: the depths of spheres in no class, and the shares of
-// the first of each class, which `passed` is multiplied by if there are classes.
+// For remote spheres and coloured images, whose transmittance is known only after the hit. Sums the depths of spheres
+// without a class; with classes, multiplies `passed` by the share of the first sphere of each class.
 void TransparentSpheres::sum_of_hits(const RaySpan& rays, RayOrder order, const DepthSums& sums, double* passed) const {
   static thread_local std::vector<RayHit> found;
   transparent_->all_hits(rays, order, found);
   if (has_classes_) keep_first_of_classes(found);
-  for (int c = 0; c < columns(); ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
+  sums.clear(rays.count, columns());
   for (std::size_t i = 0; i < found.size();) {
     const std::int64_t ray = found[i].ray;
     double of_class[kOpacityClasses];
@@ -153,7 +153,7 @@ void TransparentSpheres::sum_of_hits(const RaySpan& rays, RayOrder order, const 
       }
       OpticalDepth row[3];
       find_depths(id, row);
-      for (int c = 0; c < columns(); ++c) sums.columns[c][ray] = sum_of_depths(sums.columns[c][ray], row[c]);
+      sums.add(ray, row, columns());
     }
     if (has_classes_)
       for (const double one : of_class) passed[ray] *= one;

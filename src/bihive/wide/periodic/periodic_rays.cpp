@@ -42,12 +42,12 @@ Vec3d across(const Lattice& lattice, Vec3d vector) {
   return vector;
 }
 
-// The sphere that does not count for a ray, by one of its images.
+// The excluded sphere of a ray, of which one image is skipped.
 struct PassedOver {
   std::int64_t id = kNothing;
-  std::int64_t in_tree = kNothing;  // the sphere of the tree that stands for it: itself, or the first of its pile
-  std::int64_t twin = kNothing;     // the first of its pile that is another one
-  Vec3d centre;                     // of the image, in stored units
+  std::int64_t in_tree = kNothing;  // the id under which the tree holds it: its own, or that of its pile
+  std::int64_t twin = kNothing;     // the first other sphere of its pile
+  Vec3d centre;                     // of the skipped image, in stored units
 
   PassedOver() = default;
   PassedOver(const WideTree& tree, std::int64_t sphere) {

@@ -302,8 +302,8 @@ void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vecto
 void depths_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, const SphereDepths& depths,
                    const DepthSums& sums) {
   for_hits_of_ray(tree, rays.at(i), [&](double, std::int64_t id) {
-    sums.add(i, depths, id);
-    for_duplicates(tree, id, [&](std::int64_t other) { sums.add(i, depths, other); });
+    sums.add(i, depths.row(id), depths.columns);
+    for_duplicates(tree, id, [&](std::int64_t other) { sums.add(i, depths.row(other), depths.columns); });
   });
 }
 
@@ -353,7 +353,7 @@ void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hi
 }
 
 void optical_depths(const WideTree& tree, const RaySpan& rays, const SphereDepths& depths, const DepthSums& sums) {
-  for (int c = 0; c < depths.columns; ++c) std::fill_n(sums.columns[c], rays.count, OpticalDepth{0});
+  sums.clear(rays.count, depths.columns);
   if (!wide::beams_take(tree, rays)) {
     for (std::int64_t i = 0; i < rays.count; ++i) wide::depths_of_ray(tree, rays, i, depths, sums);
     return;

@@ -101,13 +101,7 @@ class OcclusionBeam {
     decide_pairs(tree_, span_, pairs_, [&](std::int64_t ray, double t, std::uint32_t slot) HWY_ATTR {
       if constexpr (kSought == Sought::any_hit) answer_.hidden[ray] = 1;
       if constexpr (kSought == Sought::all_hits) answer_.found->push_back({ray, t, tree_.spheres.id(slot)});
-      if constexpr (kSought == Sought::depths) {
-        const OpticalDepth* const depths = depths_of(slot);
-        for (int c = 0; c < answer_.depths->columns; ++c) {
-          OpticalDepth& sum = answer_.sums.columns[c][ray];
-          sum = sum_of_depths(sum, depths[c]);
-        }
-      }
+      if constexpr (kSought == Sought::depths) answer_.sums.add(ray, depths_of(slot), answer_.depths->columns);
     });
   }
 

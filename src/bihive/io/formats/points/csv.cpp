@@ -88,11 +88,12 @@ Result<RawSpheres> read_csv(std::string_view text, const std::string& file, std:
   std::vector<TableColumn> columns = has_header ? columns_of_header(fields) : columns_without_names(fields.size());
   if (const std::string fault = choose_columns(choice, columns); !fault.empty()) return scanner.line_error(fault);
   SphereTable table(columns);
-  if (const std::string fault = table.columns_fault(); !fault.empty() && has_header && !any_row(text))
-    return Error{"this looks like text for people: no line of it has three numbers", file, 0, 0,
-                 "a table of spheres has a line for each, with x, y and z"};
-  else if (!fault.empty())
+  if (const std::string fault = table.columns_fault(); !fault.empty()) {
+    if (has_header && !any_row(text))
+      return Error{"this looks like text for people: no line of it has three numbers", file, 0, 0,
+                   "a table of spheres has a line for each, with x, y and z"};
     return scanner.line_error(fault + " in the header " + quote(table.column_names()), how_to_name_columns());
+  }
   table.reserve(scanner.lines_left() + 1, scanner.bytes_left());
 
   // Every later line is a sphere.

@@ -69,18 +69,12 @@ namespace steps {
 void group_places(const WaveSurfaces& surfaces, const Grouping& by, PlaceGroups& groups) {
   static thread_local std::vector<std::uint32_t> group_of;
   group_of.resize(static_cast<std::size_t>(surfaces.count));
-  const auto samples = static_cast<std::uint64_t>(by.samples);
-  const auto sets = static_cast<std::uint32_t>(by.sets);
   const auto count = static_cast<std::size_t>(by.levels * by.sets);
   groups.first.assign(count + 1, 0);
   for (std::int64_t i = 0; i < surfaces.count; ++i) {
-    const auto sample = static_cast<std::uint64_t>(by.first_sample + surfaces.owner[i]);
-    // Division of 32 bits takes a third of the time.
-    const std::uint32_t of_pixel = (sample | samples) >> 32 == 0
-                                       ? static_cast<std::uint32_t>(sample) % static_cast<std::uint32_t>(samples)
-                                       : static_cast<std::uint32_t>(sample % samples);
-    const std::uint32_t level = by.level_of != nullptr ? by.level_of[i] : 0;
-    const std::uint32_t group = level * sets + of_pixel % sets;
+    const std::int64_t level = by.level_of != nullptr ? by.level_of[i] : 0;
+    const std::int64_t set = (by.first_sample + surfaces.owner[i]) % by.samples % by.sets;
+    const auto group = static_cast<std::uint32_t>(level * by.sets + set);
     group_of[static_cast<std::size_t>(i)] = group;
     ++groups.first[group + 1];
   }

@@ -15,7 +15,7 @@ constexpr std::int64_t kRaysBetweenLooks = 64;
 // of the next part.
 constexpr std::int64_t kRaysShadedAtOnce = 512;
 
-// Rays of which each layer comes before the next one: their rays of one set of directions then fill some beams.
+// Rays whose layers are stored layer after layer, so that rays from neighbouring surfaces fill whole beams.
 constexpr std::int64_t kRaysOfLayer = 2048;
 
 // Rays about which other processes are asked before their turn comes.

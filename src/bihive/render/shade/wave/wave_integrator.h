@@ -144,8 +144,8 @@ class WaveIntegrator {
   const TransparentSpheres* to_light() const {
     return settings_.transparency != nullptr ? settings_.transparency->to_light.get() : nullptr;
   }
-  // Whether the layers of neighbours may lie together: each owner has one ray then, and its light is added at the end
-  // of the generation, so the order of its surfaces stays.
+  // Whether the wave may hold layer after layer of many rays. Each owner must have a single ray, whose light is added
+  // at the end of the generation: then the order of its own surfaces does not change.
   bool layers_go_together() const { return !scene_.spawns_rays && (with_shadows() || with_ambient()); }
   // Columns of what arrives from lights and surroundings: colours, if transparent spheres colour it.
   int channels() const { return to_light() != nullptr && to_light()->has_tints() ? 3 : 1; }
