@@ -4,7 +4,7 @@
 usage: PYTHONPATH=build-release/python bench/python_points.py [POINTS...]
 
 1,000, 100,000 and a million (or POINTS) uniform points in a box: building, all pairs within a radius that holds ten, their numbers,
-the nearest one and the nearest eight of each point. The median of five turns; SciPy's time over ours.
+the nearest one and the nearest eight of each point; and a thousand single questions. The median of five turns; SciPy's time over ours.
 """
 
 import statistics
@@ -20,6 +20,7 @@ for count in [int(one) for one in sys.argv[1:]] or [1000, 100_000, 1_000_000]:
     radius = (10 / count / (4 / 3 * np.pi)) ** (1 / 3)
     spheres = bh.Spheres(xyz, radius=radius / 10)
     tree, others = bh.Tree(spheres, threads=1), cKDTree(spheres.xyz)
+    single = xyz[:1000]
     questions = {
         "building": (lambda: bh.Tree(spheres, threads=1), lambda: cKDTree(spheres.xyz)),
         "pairs": (
@@ -32,6 +33,11 @@ for count in [int(one) for one in sys.argv[1:]] or [1000, 100_000, 1_000_000]:
         ),
         "nearest": (lambda: tree.nearest(spheres.xyz, to="centre")[1].sum(), lambda: others.query(spheres.xyz)[1].sum()),
         "nearest eight": (lambda: tree.nearest(spheres.xyz, 8, to="centre")[1].sum(), lambda: others.query(spheres.xyz, 8)[1].sum()),
+        "single nearest": (lambda: [tree.nearest(point, to="centre") for point in single], lambda: [others.query(point) for point in single]),
+        "single within": (
+            lambda: [tree.within(point, radius, to="centre") for point in single],
+            lambda: [others.query_ball_point(point, radius) for point in single],
+        ),
     }
     for name, both in questions.items():
         seconds = ([], [])

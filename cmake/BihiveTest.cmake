@@ -6,8 +6,9 @@
 #   inlined          its code is compiled into whoever calls it: as users compile it, in the program inlined_tests
 #   kernel [PATTERN] also where an instruction set is emulated (tests/targets), there without the tests of this pattern
 #   threads          also with the thread sanitizer
+#   alone            not compiled together with its neighbours (bihive_compile_together)
 #   no-sanitizer     without sanitizers alone
-#   asan-long        with the address sanitizer in `make test-all` alone (C++: not with BIHIVE_SANITIZE_ALL=OFF)
+#   asan-long        C++: with the address sanitizer in `make test-all` alone (not with BIHIVE_SANITIZE_ALL=OFF)
 #   needs TARGET     where CMake has this target; C++ is linked to it
 #   PROPERTY VALUE   a property of the ctest entry, in capitals: COST 700, RUN_SERIAL TRUE, LABELS long
 
@@ -20,7 +21,7 @@ endif()
 # bihive_test_notes(file prefix): the notes of a file. Sets PREFIX_inlined, PREFIX_kernel and so on to ON, PREFIX_pattern and
 # PREFIX_needs to what follows these words, PREFIX_properties to the list of properties.
 function(bihive_test_notes file prefix)
-  foreach(flag inlined kernel threads no-sanitizer asan-long)
+  foreach(flag inlined kernel threads alone no-sanitizer asan-long)
     set(${prefix}_${flag} OFF PARENT_SCOPE)
   endforeach()
   foreach(value pattern needs properties)
@@ -31,7 +32,7 @@ function(bihive_test_notes file prefix)
     string(REGEX REPLACE "^(//|#) ctest: +" "" line "${line}")
     separate_arguments(words UNIX_COMMAND "${line}")
     list(POP_FRONT words key)
-    if(key MATCHES "^(inlined|threads|no-sanitizer|asan-long)$" AND NOT words)
+    if(key MATCHES "^(inlined|threads|alone|no-sanitizer|asan-long)$" AND NOT words)
       set(${prefix}_${key} ON PARENT_SCOPE)
     elseif(key STREQUAL "kernel")
       set(${prefix}_kernel ON PARENT_SCOPE)
@@ -98,6 +99,7 @@ function(add_bihive_tests kind)
       endif()
     endif()
     target_sources(${program} PRIVATE ${file})
+    set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ${notes_alone})
     target_link_libraries(${program} PRIVATE ${notes_needs})
     bihive_test_name(${file} name)
     string(REPLACE "." "/" of_file ${name})
@@ -136,9 +138,6 @@ function(add_bihive_script_tests kind)
   foreach(file ${files})
     bihive_test_notes(${file} notes)
     set(label ${kind})
-    if(BIHIVE_SANITIZE AND notes_asan-long)
-      set(label long)
-    endif()
     set(missing "")
     foreach(target ${notes_needs})
       if(NOT TARGET ${target})

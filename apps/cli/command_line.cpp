@@ -8,6 +8,7 @@
 #include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
+#include "bihive/compare/structure.h"
 #include "bihive/io/known_formats.h"
 #include "bihive/job/failure.h"
 #include "bihive/select/selection.h"
@@ -73,6 +74,12 @@ const auto& rows_for(const PictureRequest&) {
 
 // `alone`: no other positional argument follows INPUT. `Request`: of an input, or of a picture.
 template <class Request>
+void add_trajectory(CLI::App& app, Request& request, bool alone = true) {
+  for (const RequestOption<Request>& row : rows_for(request))
+    if (row.id == "trajectory") add_option_of(app, row, request, alone ? "TRAJECTORY," : "");
+}
+
+template <class Request>
 void add_input(CLI::App& app, Request& request, bool alone = true) {
   app.add_option("INPUT", input_of(request).input,
                  in_lines("A file (" + names_of_formats(FormatsThat::hold_spheres) +
@@ -80,8 +87,7 @@ void add_input(CLI::App& app, Request& request, bool alone = true) {
                           "- is the standard input"))
       ->type_name("")
       ->required();
-  for (const RequestOption<Request>& row : rows_for(request))
-    if (row.id == "trajectory") add_option_of(app, row, request, alone ? "TRAJECTORY," : "");
+  add_trajectory(app, request, alone);
 }
 
 void add_input_options(CLI::App& app, InputOptions& input) {
@@ -290,6 +296,54 @@ void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
   add_json_flag(command, options.json);
 }
 
+// The names between commas, each once; `named` turns one into a Result.
+template <class T, class Named>
+Result<std::vector<T>> list_from_text(const std::string& text, const Named& named) {
+  std::vector<T> list;
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t end = std::min(text.find(',', first), text.size());
+    const std::string name = text.substr(first, end - first);
+    Result<T> one = named(name);
+    if (!one) return one.error();
+    if (std::find(list.begin(), list.end(), *one) != list.end())
+      return Error{name + " stands twice", "", 0, 0, "leave one out"};
+    list.push_back(std::move(*one));
+    first = end + 1;
+  }
+  return list;
+}
+
+void add_compare(CLI::App& app, CompareOptions& options, Request& request) {
+  CLI::App& command = add_command(
+      app, "compare", "Compare trees and grids on these spheres: built, counted, timed", "bihive compare demo",
+      "bihive compare scenario2 --structures wide,bih,grid --rays random,points --json", options, request);
+  add_input(command, options.input);
+  add_path(command, "-o,--output", options.output, "Written: a report, one HTML file")->required(false);
+  std::string names, kinds;
+  for (const workbench::StructureRow& row : workbench::structures())
+    names += (names.empty() ? "" : ", ") + std::string(row.name);
+  for (const workbench::QueryKindRow& row : workbench::kQueryKinds)
+    kinds += (kinds.empty() ? "" : ", ") + std::string(row.name);
+  add_value(command, "--structures", options.structures, "NAME,...", in_lines("The structures (all): " + names),
+            [](const std::string& text) {
+              return list_from_text<std::string>(text, [](const std::string& name) -> Result<std::string> {
+                const auto row = workbench::structure_named(name);
+                if (!row) return row.error();
+                return name;
+              });
+            });
+  add_value(command, "--rays", options.kinds, "KIND,...",
+            in_lines("The rays (all): " + kinds + "; points ask for the nearest sphere"), [](const std::string& text) {
+              return list_from_text<workbench::QueryKind>(text, workbench::query_kind_named);
+            });
+  add_integer(command, "--rays-count", options.count, 1, std::int64_t{1} << 30,
+              "Primary and random rays, and points (65536); the other rays start at hits of\nthe primary ones");
+  add_integer(command, "--threads", options.threads, 0, kMostThreads,
+              "Threads of all queries and of the wide tree's build; 0: all (1)");
+  add_input_options(command, options.input);
+  add_json_flag(command, options.json);
+}
+
 void add_styles(CLI::App& app, StylesOptions& options, Request& request) {
   CLI::App& command = add_command(app, "styles", "List the styles for bihive render --style", "bihive styles",
                                   "bihive styles --json", options, request);
@@ -385,6 +439,47 @@ void add_select(CLI::App& app, SelectOptions& options, Request& request) {
   add_json_flag(command, options.json);
 }
 
+void add_measure(CLI::App& app, MeasureCommandOptions& options, Request& request) {
+  CLI::App& command =
+      add_command(app, "measure", "Compute area and volume of the union of all spheres, exactly",
+                  "bihive measure demo --probe 1.4 --by chain",
+                  "bihive measure data/1hpv.pdb --select protein --per-sphere areas.csv", options, request);
+  add_input(command, options.input);
+  add_value(command, "--probe", options.probe, "R",
+            "Add this to every radius: 1.4 A gives the solvent-accessible surface (0)",
+            [](const std::string& text) -> Result<double> {
+              const auto probe = parse_double(text);
+              if (!probe || !(*probe >= 0 && *probe <= 1e30))
+                return Error{"expected a number of at least 0, found \"" + text + "\"", "", 0, 0, ""};
+              return *probe;
+            });
+  command.add_option("--select", options.select, "Only these spheres exist: docs/selections.md")->type_name("EXPR");
+  command.add_option("--by", options.by, "Sums for each value of a column: chain, mol, resname, element ...")
+      ->type_name("COLUMN");
+  command
+      .add_option("--group", options.groups,
+                  "A group of spheres: docs/selections.md. Twice or more: the area that each two\nbury between them")
+      ->type_name("EXPR")
+      ->allow_extra_args(false);
+  std::vector<CLI::Option*> tables;
+  const auto add_table = [&](const char* name, std::string& target, const char* help) {
+    tables.push_back(command.add_option(name, target, help)->type_name("FILE"));
+  };
+  add_table("--per-sphere", options.per_sphere, "CSV: exposed area, and volume, of each sphere");
+  add_table("--cavities", options.cavities, "CSV: volume, area and spheres of each cavity");
+  add_table("--contacts", options.contacts, "CSV: each two spheres that share a part of their plane, and its area");
+  add_table(
+      "--buried", options.buried,
+      "CSV: a matrix of the areas that groups bury (of --group, else of --by); on the\ndiagonal each group alone");
+  CLI::Option* const frames = command.add_flag("--frames", options.frames, "A row for each frame, as CSV");
+  for (CLI::Option* other : tables) frames->excludes(other);
+  for (const char* name : {"--by", "--group"}) frames->excludes(command.get_option(name));
+  add_threads(command, options.threads);
+  add_input_options(command, options.input);
+  frames->excludes(command.get_option("--frame"));
+  add_json_flag(command, options.json);
+}
+
 void add_convert(CLI::App& app, ConvertOptions& options, Request& request) {
   CLI::App& command = add_command(app, "convert", "Write the spheres as they were read into a file of another format",
                                   "bihive convert data/1hpv.pdb -o protein.csv",
@@ -458,6 +553,7 @@ void add_web(CLI::App& app, WebOptions& options, Request& request) {
       add_command(app, "web", "Serve the page that shows spheres in a browser", "bihive web molecule.pdb",
                   "bihive web scenario2 --port 8080 --no-browser", options, request);
   command.add_option("INPUT", options.shown.input.input, "A file or a built-in name to open (demo)")->type_name("");
+  add_trajectory<PictureRequest>(command, options.shown);
   add_integer(command, "--port", options.port, 0, kLargestPort,
               "Port (8017, or the next one that is free; 0: any that is free)");
   add_value(command, "--bind", options.bind, "ADDRESS",
@@ -514,12 +610,14 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   FilmOptions film;
   ViewOptions view;
   StatsOptions stats;
+  CompareOptions compare;
   TraceOptions trace;
   SceneOptions scene;
   SceneSaveOptions scene_save;
   InfoOptions info;
   StylesOptions styles;
   SelectOptions select;
+  MeasureCommandOptions measure;
   ConvertOptions convert;
   ThesisOptions thesis;
   WebOptions web;
@@ -533,12 +631,14 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
       {"film", [&] { add_film(app, film, request, argc, argv); }},
       {"view", [&] { add_view(app, view, request); }},
       {"stats", [&] { add_stats(app, stats, request); }},
+      {"compare", [&] { add_compare(app, compare, request); }},
       {"trace", [&] { add_trace(app, trace, request); }},
       {"scene", [&] { add_scene(app, scene, request); }},
       {kSceneSave, [&] { add_scene_save(app, scene_save, request); }},
       {"info", [&] { add_info(app, info, request); }},
       {"styles", [&] { add_styles(app, styles, request); }},
       {"select", [&] { add_select(app, select, request); }},
+      {"measure", [&] { add_measure(app, measure, request); }},
       {"convert", [&] { add_convert(app, convert, request); }},
       {"thesis", [&] { add_thesis(app, thesis, request); }},
       {"web", [&] { add_web(app, web, request); }}};

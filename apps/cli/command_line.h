@@ -19,9 +19,10 @@ struct HelpText {
   std::string text;
   bool asked_for;  ///< true: exit code 0, stdout; false: a sub-command is missing, exit code 2, stderr
 };
-using Request = std::variant<HelpText, RenderOptions, AgainOptions, VerifyOptions, FilmOptions, ViewOptions,
-                             StatsOptions, TraceOptions, SceneOptions, SceneSaveOptions, InfoOptions, SelectOptions,
-                             ConvertOptions, StylesOptions, ThesisOptions, WebOptions>;
+using Request =
+    std::variant<HelpText, RenderOptions, AgainOptions, VerifyOptions, FilmOptions, ViewOptions, StatsOptions,
+                 CompareOptions, TraceOptions, SceneOptions, SceneSaveOptions, InfoOptions, SelectOptions,
+                 MeasureCommandOptions, ConvertOptions, StylesOptions, ThesisOptions, WebOptions>;
 
 /// The text of `bihive describe WORDS...`, from the description of the command line (words/read_program_words.h).
 using Describe = std::function<std::string(const CLI::App& app, const std::vector<std::string>& words)>;

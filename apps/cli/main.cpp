@@ -55,12 +55,14 @@ struct Run {
   int operator()(const FilmOptions& options) const { return run_film(options), kSuccess; }
   int operator()(const ViewOptions& options) const { run_view(options); }
   int operator()(const StatsOptions& options) const { return run_stats(with_input(options)), kSuccess; }
+  int operator()(const CompareOptions& options) const { return run_compare(with_input(options)), kSuccess; }
   int operator()(const TraceOptions& options) const { return run_trace(with_input(options)), kSuccess; }
   int operator()(const SceneOptions& options) const { return run_scene(options), kSuccess; }
   int operator()(const SceneSaveOptions& options) const { return run_scene_save(options), kSuccess; }
   int operator()(const InfoOptions& options) const { return run_info(with_input(options)), kSuccess; }
   int operator()(const StylesOptions& options) const { return run_styles(options), kSuccess; }
   int operator()(const SelectOptions& options) const { return run_select(with_input(options)), kSuccess; }
+  int operator()(const MeasureCommandOptions& options) const { return run_measure(with_input(options)), kSuccess; }
   int operator()(const ConvertOptions& options) const { return run_convert(with_input(options)), kSuccess; }
   int operator()(const ThesisOptions& options) const {
     if (!options.page.empty()) return write_phone_page(options.page), kSuccess;

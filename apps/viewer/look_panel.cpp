@@ -8,6 +8,7 @@
 #include <array>
 #include <utility>
 
+#include "bihive/scene/element_colours.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
 #include "bihive/scene/style.h"
@@ -20,7 +21,8 @@ namespace {
 constexpr const char* kTransparent = "none";
 
 bool has_value(const std::string& action) {
-  return action != "hide" && action != "show";
+  const LookActionText* const row = look_action_named(action);
+  return row != nullptr && !row->value.empty();
 }
 
 // A list to choose from; the names of `choices` are stored, the empty one is shown as `otherwise`.
@@ -91,20 +93,12 @@ bool text_field(const char* id, const char* hint, float width, std::string& text
   return ImGui::IsItemDeactivatedAfterEdit();
 }
 
-const char* hint_of(const std::string& action) {
-  if (action == "colour") return "orange or #ff8800";
-  if (action == "colour-by") return "chain or b_factor:magma";
-  if (action == "material") return "metal";
-  if (action == "clip") return "plane:0,0,1,0";
-  return action == "opacity" ? "0 to 1" : "0.5";
-}
-
-std::vector<std::string> values_for(const std::string& action, const SceneFacts& facts) {
-  if (action == "colour-by") return facts.attributes;
+std::vector<std::string> values_for(const LookActionText& action, const SceneFacts& facts) {
+  if (action.names == ValueNames::attributes) return facts.attributes;
   std::vector<std::string> names;
-  if (action == "material")
+  if (action.names == ValueNames::materials)
     for (const auto& material : named_materials()) names.push_back(material.first);
-  return names;
+  return action.names == ValueNames::colours ? colour_names() : names;
 }
 
 }  // namespace
@@ -136,9 +130,11 @@ std::string LookPanel::answered(const Result<std::vector<std::int64_t>>& counts,
 bool LookPanel::draw_value(const SceneFacts& facts, LookRow& row) const {
   if (!has_value(row.action)) return false;
   ImGui::SameLine();
-  const std::vector<std::string> values = values_for(row.action, facts);
+  const LookActionText& action = *look_action_named(row.action);
+  const std::vector<std::string> values = values_for(action, facts);
   const float arrow = values.empty() ? 0 : ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
-  bool changed = text_field("##value", hint_of(row.action), ImGui::GetContentRegionAvail().x - arrow, row.value);
+  bool changed =
+      text_field("##value", std::string(action.example).c_str(), ImGui::GetContentRegionAvail().x - arrow, row.value);
   if (!values.empty()) changed = names_arrow("##values", values, row.value) || changed;
   return changed;
 }
@@ -179,8 +175,9 @@ std::optional<ViewerLook> LookPanel::draw(const Viewer& viewer) {
   const SceneFacts& facts = viewer.facts();
   ViewerLook look = viewer.look();
   bool changed = draw_style(facts, look.style);
-  if (facts.has_elements)
-    changed = combo("elements", {"", "soft", "jmol", "cpk"}, "the style's", look.element_colours) || changed;
+  std::vector<std::string> element_colours = element_colour_names();
+  element_colours.insert(element_colours.begin(), "");
+  if (facts.has_elements) changed = combo("elements", element_colours, "the style's", look.element_colours) || changed;
   changed = draw_background(look.background) || changed;
 
   bool rows_changed = false;

@@ -76,8 +76,8 @@ void Panel::draw_scene(const Viewer& viewer, PanelRequests& requests) {
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##scene", name.c_str(), ImGuiComboFlags_HeightLarge)) {
     ImGui::TextColored(kDim, "built-in scenes; for a file press O, or drop it");
-    for (const char* built_in : kBuiltInScenes)
-      if (ImGui::Selectable(built_in, facts.name == built_in)) requests.built_in = built_in;
+    for (const BuiltInScene& one : kBuiltInScenes)
+      if (ImGui::Selectable(one.name, facts.name == one.name)) requests.built_in = one.name;
     ImGui::EndCombo();
   }
   ImGui::TextColored(

@@ -22,7 +22,7 @@ const browser = await chromium.launch({
 
 // A new visitor each time: nothing is in the browser's cache.
 async function visit() {
-  const context = await browser.newContext({ viewport: { width: 972, height: 360 } });
+  const context = await browser.newContext({ viewport: { width: 640, height: 360 } });
   const page = await context.newPage();
   await page.goto(url);
   await settled(page);

@@ -18,11 +18,11 @@ try {
     args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
   });
   try {
-    // The picture beside the panel has at least the size of the frames.
+    // The picture has at least the size of the frames.
     const page = await browser.newPage({ viewport: { width: 1600, height: 720 } });
     await page.goto(String(url));
     await page.waitForSelector('#picture[data-settled=true]', { timeout: 120_000 });
-    await page.click('#thesis_open');
+    await page.$eval('#thesis_open', (button) => button.click()); // its card is closed
     await page.click('#thesis_shown');
     await page.waitForSelector('#thesis_json:not([hidden])', { timeout: 600_000 });
     const words = await page.textContent('#thesis_text');

@@ -47,15 +47,16 @@ enum { BIHIVE_CANCELLED = 2 };
 typedef int (*bihive_progress)(double done, void* context);
 
 /* From now on the calls of this thread to bihive_tree_new*, bihive_tree_update, bihive_scene_new*,
- * bihive_scene_from_bytes and bihive_render call `progress`, with `context`, some twenty times per second. NULL: none
- * again; each thread has its own.
- * - It is called on the thread that made the call, which waits there while another one works, and never after the
- *   return. The first call comes after 50 ms, so short work calls it never; there is no last one with 1.
+ * bihive_scene_from_bytes, bihive_render and all queries of rays and points call `progress`, with `context`, some
+ * twenty times per second. NULL: none again; each thread has its own.
+ * - It is called on the thread that made the call, and never after the return. The first call comes after 50 ms, so
+ *   short work calls it never; there is no last one with 1. That thread waits while another one works, but queries
+ *   work on it, and call it between two pieces of their work.
  * - It must return, so it must not throw or longjmp, and it must not use the handle that is being made, changed or
  *   drawn.
- * - A cancelled call soon returns BIHIVE_CANCELLED. A handle to be made is NULL, a tree to be updated is as before, a
- * scene can be drawn again, and the pixels of `rgba` are undefined or as before. If the work ends first, the call
- * returns 0. */
+ * - A cancelled call soon returns BIHIVE_CANCELLED, a query within some 50 ms of work on each thread. A handle to be
+ * made is NULL, a tree to be updated is as before, a scene can be drawn again, and the pixels of `rgba` and the answers
+ * of a query are undefined or as before. If the work ends first, the call returns 0. */
 BIHIVE_API void bihive_set_progress(bihive_progress progress, void* context);
 
 /* ---- Spheres and their tree ---- */
@@ -129,7 +130,7 @@ BIHIVE_API int bihive_nearest_others(const bihive_tree* tree, const double* xyz,
 typedef struct bihive_lists bihive_lists;
 BIHIVE_API const int64_t* bihive_lists_begin(const bihive_lists* lists);
 BIHIVE_API const int64_t* bihive_lists_spheres(const bihive_lists* lists);
-BIHIVE_API const double* bihive_lists_distances(const bihive_lists* lists); /* of rays: t */
+BIHIVE_API const double* bihive_lists_distances(const bihive_lists* lists); /* of rays: t; of contacts: areas */
 BIHIVE_API void bihive_lists_free(bihive_lists* lists);
 
 /* Every sphere at a distance of at most limits[i] from point i, by id. To the surface, a limit of 0 gives the spheres
@@ -154,6 +155,40 @@ BIHIVE_API int bihive_count_others_within(const bihive_tree* tree, const double*
  * sphere and the images of others are pairs too, and so are a sphere and its own images. */
 BIHIVE_API int bihive_pairs(const bihive_tree* tree, double reach, int distance_to, const uint8_t* mask, int threads,
                             bihive_lists** lists);
+
+/* Area and volume of the union of the tree's spheres, each radius grown by `probe`, at least 0 (docs/measures.md):
+ * exact decisions, and the same bits for any number of threads. areas[i] is the part of sphere i in the union's
+ * boundary, 0 if `mask` leaves it out; they sum to *area. Any of the three may be NULL. Of a tree in a periodic cell,
+ * they are those of one cell, in this function and the next ones. */
+BIHIVE_API int bihive_measure(const bihive_tree* tree, double probe, const uint8_t* mask, int threads, double* area,
+                              double* volume, double* areas);
+
+/* The share of the tree's periodic cell that no sphere fills, and a bound of its rounding error, which may be NULL. It
+ * is an error if the tree is in no cell, or in one that repeats along fewer than three vectors. */
+BIHIVE_API int bihive_porosity(const bihive_tree* tree, double probe, const uint8_t* mask, int threads,
+                               double* porosity, double* error);
+
+/* For each sphere, the volume of its part of the union: all points whose power distance to it is the least. They sum to
+ * the volume of bihive_measure. */
+BIHIVE_API int bihive_sphere_volumes(const bihive_tree* tree, double probe, const uint8_t* mask, int threads,
+                                     double* volumes);
+
+/* How area and volume of the union grow with each sphere's centre (xyz) and radius. Any of the four may be NULL. */
+BIHIVE_API int bihive_measure_derivatives(const bihive_tree* tree, double probe, const uint8_t* mask, int threads,
+                                          double* area_by_centre, double* area_by_radius, double* volume_by_centre,
+                                          double* volume_by_radius);
+
+/* Where two spheres divide the union between them: the list of sphere i has its partners with larger ids, or with its
+ * own id where it meets an image of itself, and bihive_lists_distances the areas of their contacts. In a periodic cell
+ * a partner occurs once for each of its images. */
+BIHIVE_API int bihive_contacts(const bihive_tree* tree, double probe, const uint8_t* mask, int threads,
+                               bihive_lists** lists);
+
+/* The areas that groups of spheres bury where they meet. groups[i] is the group of sphere i, from 0 to count - 1, or
+ * -1. buried[g * count + h] is the area of group g alone, plus that of h alone, less that of both; on the diagonal
+ * stands the area of each group alone. */
+BIHIVE_API int bihive_buried_areas(const bihive_tree* tree, double probe, const int32_t* groups, int64_t count,
+                                   int threads, double* buried);
 
 /* Of the hits that bihive_closest gave for these rays: positions (xyz) on the spheres, outward normals (xyz) of length
  * 1, and the t where each ray leaves the sphere that it hit; NaN for none. Any of the three may be NULL. It is an error

@@ -255,7 +255,11 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     const RenderEngine engine = choose_engine(request);
     if (is_gpu(engine)) return failed("engine: bihive_render() draws on the CPU");
     const bool periodic = request.input.reading.options().periodic;
-    const bool changes_spheres = !request.looks.looks.empty() || !request.looks.element_colours.empty() || !periodic;
+    PictureSettings asked_for = scene->loaded.scene.picture;
+    request.picture.apply_to(asked_for);
+    const bool changes_spheres = !request.looks.looks.empty() || !request.looks.element_colours.empty() || !periodic ||
+                                 asked_for.sticks.bonds != Bonds::none || asked_for.arrows.any() ||
+                                 asked_for.traces.any();
     std::optional<LoadedScene> changed;
     put_light(scene->as_read, scene->loaded.scene);
     if (changes_spheres) changed = scene->loaded;

@@ -39,6 +39,24 @@ int guarded_long(const Body& body) noexcept {
   });
 }
 
+/// guarded() for queries, which ask the progress function on this thread, while they work on it.
+template <class Body>
+int guarded_query(const Body& body) noexcept {
+  return guarded([&] {
+    const Progress progress = progress_of_thread();
+    std::optional<Watch> watch;
+    if (progress.report != nullptr)
+      watch.emplace(ProgressCallback(), nullptr,
+                    [progress](double done) { return progress.report(done, progress.context) == 0; });
+    WatchedWork work(WatchedWork::InnerProgress::passed_on);
+    try {
+      return body();
+    } catch (const Cancelled&) {
+      return failed(cancelled_error());
+    }
+  });
+}
+
 /// While it lives, watched calls on this thread report their progress as this section of the whole work. Does nothing
 /// without work.
 class Section {

@@ -11,6 +11,7 @@
 #include "bihive.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/version.h"
+#include "bihive/base/watch.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/wide/periodic_images.h"
 #include "bihive/wide/point_queries.h"
@@ -20,19 +21,7 @@
 #include "c_errors.h"
 #include "c_progress.h"
 #include "c_spheres.h"
-
-struct bihive_tree {
-  std::unique_ptr<bihive::WideBuilder> builder;  // from the first update on, as it keeps working memory
-  std::shared_ptr<const bihive::WideTree> tree;
-  bihive::SphereSet spheres;
-  std::string warning;
-  std::optional<bihive::PeriodicImages> images;
-};
-
-struct bihive_lists {
-  std::vector<std::int64_t> begin, spheres;
-  std::vector<double> distances;
-};
+#include "c_tree.h"
 
 namespace bihive::c {
 namespace {
@@ -96,20 +85,19 @@ class Columns {
   RaySpan span_;
 };
 
-// Calls answer(rays, first, chunk) for all chunks of the rays, on threads.
+// Calls answer(rays, first, chunk) for all chunks of the rays, on threads, as a section of the thread's WatchedWork.
 template <class Answer>
 int for_parts(const bihive_tree& tree, const bihive_rays& rays, int threads, const Answer& answer) {
   const Parts parts = Parts::of(rays.count, threads);
-  std::atomic<bool> no_memory{false};
-  parallel_for(threads, parts.count, [&](std::int64_t part) {
-    try {
+  try {
+    watched_for(threads, parts.count, [&](std::int64_t part) {
       const std::int64_t first = part * parts.size;
       answer(Columns(rays, tree.tree->origin, first, std::min(parts.size, rays.count - first)).span(), first, part);
-    } catch (const std::bad_alloc&) {
-      no_memory = true;
-    }
-  });
-  return no_memory ? failed("not enough memory for this many rays; trace fewer at a time") : kDone;
+    });
+  } catch (const std::bad_alloc&) {
+    return failed("not enough memory for this many rays; trace fewer at a time");
+  }
+  return kDone;
 }
 
 int check_point_arguments(const bihive_tree* tree, const double* xyz, std::int64_t count, int distance_to,
@@ -276,7 +264,7 @@ int64_t bihive_tree_size(const bihive_tree* tree) {
 }
 
 int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads, double* t, int64_t* spheres) {
-  return guarded([&] {
+  return guarded_query([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return failed("there is no place for the hits");
     const HitSpan hits{t, spheres};
@@ -292,7 +280,7 @@ int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, int threads
 }
 
 int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int threads, uint8_t* hidden) {
-  return guarded([&] {
+  return guarded_query([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     if (rays->count > 0 && hidden == nullptr) return failed("there is no place for the answers");
     return for_rays(
@@ -309,7 +297,7 @@ int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int thread
 int bihive_nearest_others(const bihive_tree* tree, const double* xyz, int64_t count, int64_t most, double within,
                           int distance_to, const uint8_t* mask, const int64_t* exclude, int threads, double* distances,
                           int64_t* spheres) {
-  return guarded([&] {
+  return guarded_query([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     if (count > 0 && (distances == nullptr || spheres == nullptr)) return failed("there is no place for the spheres");
     const auto nearest = nearest_spheres(*tree->tree, PointSpan::rows(xyz, count), most, within,
@@ -347,7 +335,7 @@ int bihive_within_others(const bihive_tree* tree, const double* xyz, int64_t cou
                          bihive_lists** lists) {
   if (lists == nullptr) return failed("there is no place for the lists");
   *lists = nullptr;
-  return guarded([&] {
+  return guarded_query([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     const PointSpan points = PointSpan::rows(xyz, count);
     const PointOptions options = options_of(*tree, distance_to, mask, exclude, threads);
@@ -362,7 +350,7 @@ int bihive_within_others(const bihive_tree* tree, const double* xyz, int64_t cou
 int bihive_count_others_within(const bihive_tree* tree, const double* xyz, int64_t count, const double* limits,
                                int distance_to, const uint8_t* mask, const int64_t* exclude, int threads,
                                int64_t* counts) {
-  return guarded([&] {
+  return guarded_query([&] {
     if (check_point_arguments(tree, xyz, count, distance_to, threads) != kDone) return kFailed;
     if (count > 0 && counts == nullptr) return failed("there is no place for the counts");
     const std::vector<double> zeros(limits == nullptr ? static_cast<std::size_t>(count) : 0);
@@ -388,7 +376,7 @@ int bihive_pairs(const bihive_tree* tree, double reach, int distance_to, const u
                  bihive_lists** lists) {
   if (lists == nullptr) return failed("there is no place for the lists");
   *lists = nullptr;
-  return guarded([&] {
+  return guarded_query([&] {
     if (check_point_arguments(tree, nullptr, 0, distance_to, threads) != kDone) return kFailed;
     auto pairs =
         sphere_pairs(*tree->tree, tree->spheres, reach, options_of(*tree, distance_to, mask, nullptr, threads));
@@ -406,7 +394,7 @@ int bihive_pairs(const bihive_tree* tree, double reach, int distance_to, const u
 
 int bihive_surfaces(const bihive_tree* tree, const bihive_rays* rays, const double* t, const int64_t* spheres,
                     int threads, double* positions, double* normals, double* exits) {
-  return guarded([&] {
+  return guarded_query([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     if (rays->count > 0 && (t == nullptr || spheres == nullptr)) return failed("the hits are NULL");
     const PeriodicImages* const images = tree->images ? &*tree->images : nullptr;
@@ -436,7 +424,7 @@ int bihive_surfaces(const bihive_tree* tree, const bihive_rays* rays, const doub
 int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int threads, bihive_lists** lists) {
   if (lists == nullptr) return failed("there is no place for the lists");
   *lists = nullptr;
-  return guarded([&] {
+  return guarded_query([&] {
     if (!ready(tree, rays) || threads < 0) return failed("tree or rays are NULL, or a number is negative");
     const Parts parts = Parts::of(rays->count, threads);
     std::vector<std::vector<RayHit>> of_part(static_cast<std::size_t>(parts.count));
@@ -454,6 +442,7 @@ int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int thread
     made->begin.assign(static_cast<std::size_t>(rays->count) + 1, 0);
     std::int64_t first = 0;
     for (std::vector<RayHit>& hits : of_part) {
+      stop_if_cancelled();
       for (const RayHit& hit : hits) {
         ++made->begin[static_cast<std::size_t>(first + hit.ray) + 1];
         made->spheres.push_back(hit.sphere_id);

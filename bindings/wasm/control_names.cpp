@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "bihive/io/reading_settings.h"
 #include "bihive/settings/parameter.h"
 
 namespace bihive::page {
@@ -13,11 +14,10 @@ struct Control {
   std::string_view id, label;
 };
 
-// The labels in web/index.html of controls that are not parameters of a picture (settings/parameter.h).
+// The labels in web/index.html of controls that no table of the library has.
 constexpr std::array kControls{Control{"aperture", "Aperture"},
                                Control{"background", "Background"},
                                Control{"colour_by", "Colour by"},
-                               Control{"columns", "Columns"},
                                Control{"count", "Spheres"},
                                Control{"element_colours", "Elements"},
                                Control{"engine", "Engine"},
@@ -28,15 +28,14 @@ constexpr std::array kControls{Control{"aperture", "Aperture"},
                                Control{"max_prims", "max_prims"},
                                Control{"nan_colour", "Unknown numbers"},
                                Control{"projection", "Projection"},
-                               Control{"radius", "Radius"},
-                               Control{"radius_scale", "Radius ×"},
                                Control{"samples", "Samples"},
                                Control{"style", "Style"},
-                               Control{"view", "Show"}};
+                               Control{"view", "View"}};
 
 std::string label_of(std::string_view id) {
   const auto at = std::find_if(kControls.begin(), kControls.end(), [id](const Control& one) { return one.id == id; });
   if (at != kControls.end()) return std::string(at->label);
+  if (const ReadingSetting* const row = reading_setting(id); row != nullptr) return std::string(row->label);
   const Parameter* const parameter = parameter_named(id);
   std::string label(parameter == nullptr ? "" : parameter->label);
   if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));

@@ -2,6 +2,7 @@
 
 #include <emscripten/bind.h>
 #include <emscripten/html5_webgl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,10 @@
 #include "bihive/geometry/measures.h"
 #include "bihive/io/frames.h"
 #include "bihive/io/reading_settings.h"
-#include "bihive/scene/camera_lights.h"
-#include "bihive/scene/look_text.h"
-#include "bihive/scene/named_materials.h"
+#include "bihive/scene/camera.h"
 #include "bihive/scene/names.h"
-#include "bihive/scene/style.h"
+#include "bihive/viewer/contents.h"
 #include "bihive/viewer/load_file.h"
-#include "bihive/viewer/pick.h"
 #include "bihive/viewer/viewer_json.h"
 #include "control_names.h"
 
@@ -30,13 +28,6 @@ namespace bihive::page {
 namespace {
 
 using nlohmann::ordered_json;
-
-template <class T>
-ordered_json names_json(const Names<T>& names) {
-  ordered_json list = ordered_json::array();
-  for (const auto& named : names) list.push_back(named.first);
-  return list;
-}
 
 std::string done_or(const Status& status) {
   return status ? "{}" : failure(status.error());
@@ -189,16 +180,14 @@ std::string Page::set(const std::string& changes) {
   });
 }
 
-std::string Page::choices() const {
-  ordered_json json;
-  for (const std::string& name : style_names())
-    json["styles"].push_back({{"name", name}, {"description", style_named(name)->description}});
-  json["actions"] = look_action_names();
-  json["materials"] = names_json(named_materials());
-  json["lights"] = names_json(light_presets());
-  json["settings"] = *json_from_text<ordered_json>(parameters_to_json());
-  json["tones"] = names_of(*parameter_named("tone"));
-  return text_of(json);
+std::string Page::far_enough(const std::string& camera, int width_px, int height_px) const {
+  return with_memory([&] {
+    Result<ViewerSettings> settings = settings_from_json(camera, viewer_.settings());
+    if (!settings) return failure(settings.error());
+    if (const Status status = check_camera(settings->camera); !status) return failure(status.error());
+    settings->camera = viewer_.far_enough(settings->camera, width_px, height_px);
+    return settings_to_json(*settings);
+  });
 }
 
 std::string Page::look() const {
@@ -262,21 +251,37 @@ std::string Page::pick(double x_px, double y_px) const {
   return with_memory([&] {
     const Result<std::optional<Picked>> picked = viewer_.pick(x_px, y_px);
     if (!picked) return failure(picked.error());
-    ordered_json json;
-    if (*picked) json = *json_from_text<ordered_json>(picked_to_json(**picked, viewer_.scene()));
-    return text_of({{"picked", json}});
+    return *picked ? picked_json(**picked) : text_of({{"picked", nullptr}});
   });
+}
+
+std::string Page::picked_json(const Picked& picked) const {
+  auto json = *json_from_text<ordered_json>(picked_to_json(picked, viewer_.scene()));
+  json["sphere"] = input_id(viewer_.scene(), picked.sphere);
+  return text_of({{"picked", json}});
+}
+
+// The shown sphere of an id of the input; nothing if it is hidden, or there is none.
+std::optional<std::int64_t> Page::stored_id(double id) const {
+  const Scene& scene = viewer_.scene();
+  const std::int64_t of_input = scene.id_in_input.empty() ? scene.spheres.size() : scene.size_of_input;
+  if (!(id >= 0 && id < kMostSpheres) || of_input == 0) return std::nullopt;
+  const auto wanted = static_cast<std::int64_t>(id);
+  const std::int64_t copy = wanted / of_input;
+  std::int64_t stored = wanted % of_input;
+  if (!scene.id_in_input.empty()) {
+    const auto at = std::lower_bound(scene.id_in_input.begin(), scene.id_in_input.end(), stored);
+    if (at == scene.id_in_input.end() || *at != stored) return std::nullopt;
+    stored = at - scene.id_in_input.begin();
+  }
+  const std::int64_t shown = copy * scene.spheres.size() + stored;
+  return copy < scene.spheres.images().count() ? std::optional(shown) : std::nullopt;
 }
 
 std::string Page::sphere(double id) const {
   return with_memory([&] {
-    const SphereSet& spheres = viewer_.scene().spheres;
-    ordered_json json;
-    if (id >= 0 && id < double(spheres.size())) {
-      const auto sphere = static_cast<std::int64_t>(id);
-      json = *json_from_text<ordered_json>(picked_to_json({sphere, spheres.centre(sphere)}, viewer_.scene()));
-    }
-    return text_of({{"picked", json}});
+    const std::optional<std::int64_t> sphere = stored_id(id);
+    return sphere ? picked_json({*sphere, viewer_.scene().spheres.centre(*sphere)}) : text_of({{"picked", nullptr}});
   });
 }
 
@@ -285,12 +290,53 @@ std::string Page::measured(const emscripten::val& ids) const {
     const SphereSet& spheres = viewer_.scene().spheres;
     std::vector<std::int64_t> of;
     for (const double id : emscripten::vecFromJSArray<double>(ids))
-      if (id >= 0 && id < double(spheres.size())) of.push_back(static_cast<std::int64_t>(id));
+      if (const std::optional<std::int64_t> sphere = stored_id(id)) of.push_back(*sphere);
     const std::optional<Lattice> lattice = Lattice::of(spheres.cell());
     ordered_json value;
     if (of.size() >= 2 && of.size() <= 4)
       if (const double measure = bihive::measured(spheres, of, lattice); std::isfinite(measure)) value = measure;
     return text_of({{"value", value}, {"nearest_images", lattice.has_value()}});
+  });
+}
+
+std::string Page::measured_in(double frame, const emscripten::val& ids) const {
+  return with_memory([&] {
+    const auto number = static_cast<std::int64_t>(frame);
+    std::optional<SphereFile> file;
+    if (frames_) {
+      Result<SphereFile> read = frames_->read(number);
+      if (!read) return failure(read.error());
+      file = std::move(*read);
+    }
+    const SphereSet& spheres = file ? file->spheres : viewer_.input_spheres();
+    std::vector<std::int64_t> of;
+    for (const double id : emscripten::vecFromJSArray<double>(ids)) {
+      if (!(id >= 0 && id < double(spheres.size())))
+        return failure({fmt::format("frame {} has no sphere {}", number, id), "", 0, 0, ""});
+      of.push_back(static_cast<std::int64_t>(id));
+    }
+    if (of.size() < 2 || of.size() > 4) return failure({"a measure is of two to four spheres", "", 0, 0, ""});
+    const double value = bihive::measured(spheres, of, Lattice::of(spheres.cell()));
+    const auto shown = [](const auto& known) { return known ? fmt::format("{}", *known) : std::string(); };
+    const std::string time = shown(file ? file->time_ps : std::optional<double>());
+    const std::string step = shown(file ? file->step : std::optional<std::int64_t>());
+    return text_of({{"line", fmt::format("{},{},{},{}", number, time, step,
+                                         std::isnan(value) ? std::string("nan") : fmt::format("{:.9g}", value))}});
+  });
+}
+
+std::string Page::contents() const {
+  return with_memory([&] { return contents_to_json(viewer_.input_spheres()); });
+}
+
+std::string Page::legend() const {
+  return with_memory([&] { return legend_to_json(viewer_.scene()); });
+}
+
+std::string Page::histogram(const std::string& attribute, int bins) const {
+  return with_memory([&] {
+    const Result<std::string> json = histogram_to_json(viewer_.input_spheres(), attribute, bins);
+    return json ? *json : failure(json.error());
   });
 }
 
@@ -350,6 +396,7 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("set_look", &Page::set_look)
       .function("look_from", &Page::look_from)
       .function("home", &Page::home)
+      .function("far_enough", &Page::far_enough)
       .function("attach_gl", &Page::attach_gl)
       .function("detach_gl", &Page::detach_gl)
       .function("frame", &Page::frame)
@@ -359,6 +406,10 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("pick", &Page::pick)
       .function("sphere", &Page::sphere)
       .function("measured", &Page::measured)
+      .function("measured_in", &Page::measured_in)
+      .function("contents", &Page::contents)
+      .function("legend", &Page::legend)
+      .function("histogram", &Page::histogram)
       .function("show", &Page::show)
       .function("begin_picture", &Page::begin_picture)
       .function("step_picture", &Page::step_picture)

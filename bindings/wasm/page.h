@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "bihive/io/frames.h"
+#include "bihive/viewer/choices.h"
+#include "bihive/viewer/pick.h"
 #include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
 
@@ -54,12 +56,13 @@ class Page {
   void zoom(double factor, double x_px, double y_px) { viewer_.zoom(factor, x_px, y_px); }
   std::string look_from(const std::string& side);
   void home() { viewer_.home(); }
+  /// The settings with the camera of `camera`, {"camera": {...}}, so far away that a picture of this size shows all.
+  std::string far_enough(const std::string& camera, int width_px, int height_px) const;
 
   // The look (viewer/viewer_json.h).
 
-  /// {"styles": [{"name", "description"}], "actions": [names], "materials": [names], "lights": [names],
-  /// "tones": [names]}
-  std::string choices() const;
+  /// viewer/choices.h.
+  std::string choices() const { return choices_to_json(); }
   std::string look() const;
   /// {"counts": [spheres of each row], "coloured_by": [{"attribute", "range": [min, max]}]}; categories have no range.
   /// An error also has {"row": the faulty row, or -1}.
@@ -83,11 +86,17 @@ class Page {
   void let_page_through() { viewer_.show_checks(false); }
   /// The sphere under (x, y): {"picked": as viewer/pick.h, or null}.
   std::string pick(double x_px, double y_px) const;
-  /// The same of a sphere by its id, at its centre.
+  /// The same of a sphere by its id, at its centre. Ids here are those of the input: hidden spheres count too.
   std::string sphere(double id) const;
   /// {"value": of geometry/measures.h, or null, "nearest_images": the set has a periodic cell}: the distance, angle or
   /// dihedral angle of an array of two to four ids.
   std::string measured(const emscripten::val& ids) const;
+  /// {"line"}: the measure in a frame as a line of the table that `bihive info --distance` and its relatives print.
+  std::string measured_in(double frame, const emscripten::val& ids) const;
+  // Groups, legend and histogram of the scene (viewer/contents.h).
+  std::string contents() const;
+  std::string legend() const;
+  std::string histogram(const std::string& attribute, int bins) const;
   std::string statistics() const { return viewer_.statistics_json(); }
 
   // A picture to be saved, one step for each call. frame() and set() drop it.
@@ -101,6 +110,8 @@ class Page {
 
  private:
   void start_player(std::int64_t frame);
+  std::optional<std::int64_t> stored_id(double id) const;
+  std::string picked_json(const Picked& picked) const;
   Status show_frame(std::int64_t frame);
   std::string loaded(const Result<SceneFacts>& facts) const;
 

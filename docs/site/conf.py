@@ -48,6 +48,12 @@ def write_pages_of_names():
             page.write_text(text, encoding="utf-8")
 
 
+sys.path.insert(0, str(TOP / "docs/site"))
+import c_reference  # noqa: E402
+
+c_reference.write_pages(TOP / "bindings/c/bihive.h", TOP / "docs/site/c_names")
+include_patterns.append("docs/site/c_names/*.rst")
+
 package = os.environ.get("BIHIVE_PYTHON_PACKAGE", "")
 if package:
     sys.path.insert(0, package)

@@ -194,6 +194,9 @@ static void test_cells(void) {
   EXPECT(bihive_within(tree, place, 1, &limit, BIHIVE_CENTRE, NULL, 0, &lists) == 0);
   if (lists != NULL) EXPECT(bihive_lists_begin(lists)[1] == 13 && bihive_lists_spheres(lists)[12] == 0);
   bihive_lists_free(lists);
+  double porosity = 0, error = 1;
+  EXPECT(bihive_porosity(tree, 0.2, NULL, 0, &porosity, &error) == 0 && error < 1e-12);
+  EXPECT(fabs(porosity - (1 - 4 * 3.14159265358979323846 / 3 * 0.027 / 2)) < 1e-8);
   EXPECT(bihive_nearest(tree, place, 1, 13, INFINITY, BIHIVE_CENTRE, NULL, 0, distances, spheres) == 0);
   EXPECT(distances[0] == 0 && distances[1] == sqrt(2) && distances[12] == sqrt(2) && spheres[12] == 0);
   const int64_t itself = 0; /* its images count */
@@ -223,6 +226,43 @@ static void test_cells(void) {
   EXPECT_ERROR(bihive_tree_new_in_cell(place, &radius, 1, broken, 0, &tree), "finite");
   EXPECT_ERROR(bihive_tree_new_in_cell(place, &radius, 1, NULL, 0, &tree), "NULL");
   EXPECT(tree == NULL);
+}
+
+static void test_measures(const bihive_tree* tree) {
+  const uint8_t mask[] = {1, 0, 0, 0};
+  double area = 0, volume = 0, whole = 0, areas[4];
+  EXPECT(bihive_measure(tree, 0.5, mask, 1, &area, &volume, areas) == 0);
+  EXPECT(fabs(area - 4 * 3.14159265358979323846 * 1.5 * 1.5) < 1e-13 && areas[0] == area && areas[1] == 0);
+  EXPECT(fabs(volume - area * 1.5 / 3) < 1e-13);
+  EXPECT(bihive_measure(tree, 0, NULL, 0, &whole, NULL, areas) == 0);
+  EXPECT(fabs(whole - (areas[0] + areas[1] + areas[2] + areas[3])) < 1e-12);
+  EXPECT_ERROR(bihive_measure(tree, -1, NULL, 0, &area, NULL, NULL), "at least 0");
+  EXPECT_ERROR(bihive_measure(tree, 0, NULL, -1, &area, NULL, NULL), "threads is negative");
+  EXPECT_ERROR(bihive_measure(NULL, 0, NULL, 0, &area, NULL, NULL), "NULL");
+  EXPECT_ERROR(bihive_porosity(tree, 0, NULL, 0, &area, NULL), "cell");
+
+  /* Two spheres that meet in a disc of radius sqrt(3) / 2, and one apart. */
+  const double places[] = {0, 0, 0, 1, 0, 0, 9, 0, 0}, radii[] = {1, 1, 1}, kPi = 3.14159265358979323846;
+  const int32_t groups[] = {0, 1, -1}, bad_groups[] = {0, 2, -1};
+  double volumes[3], by_centre[9], by_radius[3], buried[4];
+  bihive_lists* lists = NULL;
+  bihive_tree* two = NULL;
+  EXPECT(bihive_tree_new(places, radii, 3, 0, &two) == 0);
+  EXPECT(bihive_sphere_volumes(two, 0, NULL, 0, volumes) == 0);
+  EXPECT(fabs(volumes[0] - (4 * kPi / 3 - kPi / 3 * 0.25 * 2.5)) < 1e-14 && fabs(volumes[2] - 4 * kPi / 3) < 1e-14);
+  EXPECT(bihive_contacts(two, 0, NULL, 0, &lists) == 0);
+  if (lists != NULL) {
+    EXPECT(bihive_lists_begin(lists)[1] == 1 && bihive_lists_begin(lists)[3] == 1);
+    EXPECT(bihive_lists_spheres(lists)[0] == 1 && fabs(bihive_lists_distances(lists)[0] - 0.75 * kPi) < 1e-14);
+  }
+  bihive_lists_free(lists);
+  EXPECT(bihive_measure_derivatives(two, 0, NULL, 0, by_centre, by_radius, NULL, NULL) == 0);
+  EXPECT(fabs(by_centre[3] - 2 * kPi) < 1e-13 && by_centre[6] == 0 && fabs(by_radius[2] - 8 * kPi) < 1e-13);
+  EXPECT(bihive_buried_areas(two, 0, groups, 2, 0, buried) == 0);
+  EXPECT(fabs(buried[0] - 4 * kPi) < 1e-13 && fabs(buried[1] - 2 * kPi) < 1e-13 && buried[2] == buried[1]);
+  EXPECT_ERROR(bihive_buried_areas(two, 0, bad_groups, 2, 0, buried), "from -1 to below");
+  EXPECT_ERROR(bihive_contacts(two, 0, NULL, 0, NULL), "NULL");
+  bihive_tree_free(two);
 }
 
 static void test_points(const bihive_tree* tree) {
@@ -307,6 +347,7 @@ static void test_trees(void) {
   test_rays(tree);
   test_many_rays(tree);
   test_points(tree);
+  test_measures(tree);
   bihive_tree_free(tree);
 }
 

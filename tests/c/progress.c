@@ -83,6 +83,70 @@ static void test_trees(void) {
   bihive_tree_free(tree);
 }
 
+enum { kFew = 300000, kRays = 600000 };
+
+/* Queries ask the progress function on the thread that made them, and end when it says so. */
+static void test_queries(void) {
+  float *const origins = malloc(3 * sizeof(float) * kRays), *const directions = malloc(3 * sizeof(float) * kRays);
+  double *const t = malloc(8 * sizeof(double) * kRays), *const limits = malloc(sizeof(double) * kRays);
+  int64_t *const ids = malloc(8 * sizeof(int64_t) * kRays), *const counts = malloc(sizeof(int64_t) * kRays);
+  uint8_t* const hidden = malloc(kRays);
+  bihive_lists* lists = NULL;
+  bihive_tree* tree = NULL;
+  bihive_rays rays = {kRays, origins, directions, NULL, NULL, NULL, NULL, NULL};
+  EXPECT(origins != NULL && directions != NULL && t != NULL && limits != NULL && ids != NULL && counts != NULL &&
+         hidden != NULL);
+  if (failures > 0) return;
+  for (int i = 0; i < 3 * kRays; ++i) {
+    origins[i] = (float)xyz[i];
+    directions[i] = (float)(moved[i + 3] - 0.5);
+  }
+  for (int i = 0; i < kRays; ++i) limits[i] = 0.02;
+  EXPECT(bihive_tree_new(xyz, radii, kFew, 1, &tree) == 0);
+
+  for (int cancel = 1; cancel >= 0; --cancel) {
+    for (int query = 0; query < 7; ++query) {
+      struct Heard heard = listen(cancel ? 0 : 2);
+      int state = -1;
+      bihive_set_progress(hear, &heard);
+      switch (query) {
+        case 0:
+          state = bihive_closest(tree, &rays, 1, t, ids);
+          break;
+        case 1:
+          state = bihive_occluded(tree, &rays, 1, hidden);
+          break;
+        case 2:
+          state = bihive_all_hits(tree, &rays, 1, &lists);
+          break;
+        case 3:
+          state = bihive_nearest(tree, xyz, kRays, 8, INFINITY, BIHIVE_CENTRE, NULL, 1, t, ids);
+          break;
+        case 4:
+          state = bihive_within(tree, xyz, kRays, limits, BIHIVE_CENTRE, NULL, 1, &lists);
+          break;
+        case 5:
+          state = bihive_count_within(tree, xyz, kRays, limits, BIHIVE_CENTRE, NULL, 1, counts);
+          break;
+        default:
+          state = bihive_pairs(tree, 0.02, BIHIVE_CENTRE, NULL, 1, &lists);
+          break;
+      }
+      bihive_set_progress(NULL, NULL);
+      EXPECT(heard.falls == 0 && heard.on_other_threads == 0);
+      /* On a fast machine a query ends before it is asked. */
+      EXPECT(state == (cancel && heard.calls > 0 ? BIHIVE_CANCELLED : 0));
+      if (cancel) EXPECT(heard.calls <= 1);
+      EXPECT(state == 0 || lists == NULL);
+      bihive_lists_free(lists);
+      lists = NULL;
+    }
+  }
+  EXPECT(strcmp(bihive_error_text(), "cancelled") == 0);
+  bihive_tree_free(tree);
+  free(origins), free(directions), free(t), free(limits), free(ids), free(counts), free(hidden);
+}
+
 static void test_scenes(void) {
   static uint8_t one[4 * kSide * kSide], other[4 * kSide * kSide];
   char* const text = malloc(40 * (size_t)kAtoms + 100);
@@ -127,6 +191,7 @@ int main(void) {
   }
   for (int i = 0; i < kSpheres; ++i) radii[i] = 0.002;
   test_trees();
+  test_queries();
   test_scenes();
   printf("progress from C: %d broken promises\n", failures);
   return failures == 0 ? 0 : 1;

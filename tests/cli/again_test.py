@@ -1,7 +1,5 @@
 """bihive again and bihive verify: a PNG says how it was drawn, is drawn again, and is compared bit by bit."""
 
-# ctest: asan-long
-
 import json
 import os
 import re

@@ -1,6 +1,5 @@
 """bihive-bench: the content of its JSON, the agreement of both ray tracers, and its errors."""
 
-# ctest: asan-long
 # ctest: needs bihive-bench
 
 import json

@@ -1,7 +1,5 @@
 """bihive render: the options of its camera."""
 
-# ctest: asan-long
-
 import json
 
 from program import ProgramTest, main, png_pixels

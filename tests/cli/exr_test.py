@@ -1,7 +1,5 @@
 """bihive render -o a.exr: light and layers of numbers."""
 
-# ctest: asan-long
-
 import math
 import os
 import struct

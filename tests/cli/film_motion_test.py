@@ -1,7 +1,5 @@
 """bihive film: the axis of turntables, films that keep spheres in place, cameras for all frames."""
 
-# ctest: asan-long
-
 import json
 import shutil
 

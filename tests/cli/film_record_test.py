@@ -1,7 +1,5 @@
 """Films say how they were made: `bihive verify` draws their pictures again, `bihive again` makes the film again."""
 
-# ctest: asan-long
-
 import json
 import os
 import shutil

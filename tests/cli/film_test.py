@@ -1,7 +1,5 @@
 """bihive film: sequences, y4m and encoded films; resume, shards, cameras, titles and wrong options."""
 
-# ctest: asan-long
-
 import glob
 import json
 import os

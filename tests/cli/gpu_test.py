@@ -1,7 +1,5 @@
 """--engine gpu: the messages when it cannot be used. (tests/gl tests everything that needs a driver.)"""
 
-# ctest: asan-long
-
 import os
 
 from program import ProgramTest, main

@@ -1,7 +1,5 @@
 """The options of `bihive render` that write on a picture."""
 
-# ctest: asan-long
-
 import json
 import os
 

@@ -1,7 +1,5 @@
 """The legend of `bihive render`: its title, names of selections, fog behind it, and colours that stand for two things."""
 
-# ctest: asan-long
-
 import json
 
 from program import ProgramTest, main, png_pixels, png_text

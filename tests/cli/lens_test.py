@@ -1,7 +1,5 @@
 """bihive render: depth of field and adaptive samples."""
 
-# ctest: asan-long
-
 from program import ProgramTest, main, png_numbers
 
 SMALL = ["--size", "60x40"]

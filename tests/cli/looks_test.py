@@ -1,7 +1,5 @@
 """The options of `bihive render` that select, hide and colour."""
 
-# ctest: asan-long
-
 import json
 
 import numpy

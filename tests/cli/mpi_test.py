@@ -1,7 +1,5 @@
 """Pictures and films by three ranks of mpirun: bihive-mpi, and shards of bihive, as docs/many_machines.md says."""
 
-# ctest: asan-long
-
 import importlib.util
 import json
 import os

@@ -1,7 +1,5 @@
 """bihive render: its picture, its output, and the same picture by every engine and number of threads."""
 
-# ctest: asan-long
-
 import json
 import os
 

@@ -1,7 +1,5 @@
 """Periodic cells: --cell, --replicate, --cell-vectors, --cell-origin, --wrap and --unwrap."""
 
-# ctest: asan-long
-
 import json
 
 import numpy

@@ -21,6 +21,8 @@ OUTPUTS = {
     "view": [("--screenshot", ".png")],
     "trace": [("--t", ".npy"), ("--id", ".npy")],
     "convert": [("--output", ".xyz"), ("--output", ".csv"), ("--output", ".npy"), ("--output", ".ply"), ("--output", ".json")],
+    "compare": [("--output", ".html")],
+    "measure": [("--per-sphere", ".csv"), ("--cavities", ".csv"), ("--contacts", ".csv"), ("--buried", ".csv")],
     "scene-save": [("SCENE", ".json")],
     "thesis": [("--out", "report.html"), ("--out", "results.json")],
     "web": [("--html", ".html")],
@@ -64,7 +66,7 @@ class RequestFilesTest(ProgramTest):
         if option != "INPUT" and command not in ("thesis",):
             words.append("in.xyz")
         for needed, value in {"trace": [("--rays", "rays.npy"), ("--t", "t.npy"), ("--id", "id.npy")],
-                              "convert": [("--format", "xyz")]}.get(command, []):
+                              "convert": [("--format", "xyz")], "measure": [("--by", "element")]}.get(command, []):
             if needed not in (option, output_option):
                 words += [needed, value]
         # A picture of a film has the film's size.

@@ -40,22 +40,36 @@ class Table(ProgramTest):
         left_out = ("legend", "legend_title", "length_unit", "matte", "eye_distance", "cell", "cell_width", "cell_colour", "transfer")
         size = ["--size", "48x36", "--samples", "1", "--projection", "orthographic"]
         with open(self.path("spheres.csv"), "w") as file:
-            file.write("x,y,z,r\n0,0,0,1\n1,0,-3,1\n0,1,1,0.5\n")
+            file.write("x,y,z,r,mol\n0,0,0,1,1\n1,0,-3,1,1\n0,1,1,0.5,1\n")
+        with open(self.path("atoms.xyz"), "w") as file:
+            file.write("3\n\nC 0 0 0\nO 1.2 0 0\nH -0.6 0.9 0\n")
         for row in self.table():
             if "option" not in row or "path" not in row or row["id"] in left_out:
                 continue
             with self.subTest(row["id"]):
-                value = values[row["kind"]](row)
+                value = {"bond_reach": 1.4, "arrows": "x,y,r", "arrow_select": "index 1", "arrow_colour": "x:magma", "trace_select": "index 0 2",
+                         "trace_radius": "r/2", "trace_atoms": "shown"}.get(row["id"]) or values[row["kind"]](row)
                 whole, _, key = row["path"].partition(".")
                 picture = {whole: {key: value} if key else {} if whole == "ambient_occlusion" else value}
                 # A part of something whose presence has a number of its own is set with it.
                 extra = {"fog": ["--fog", "0.5"], "outline": ["--outline", "1", "--line-unit", "px"]}.get(whole, []) if key and row["id"] not in ("fog",) else []
+                # Bonds are between atoms, and what is theirs is set with them.
+                of_bonds = row["id"] in ("bonds", "bond_reach", "stick_radius", "ball_scale")
+                spheres = self.path("atoms.xyz" if of_bonds else "spheres.csv")
+                if of_bonds and row["id"] != "bonds":
+                    picture["bonds"] = "distance"
+                    extra = ["--bonds", "distance"]
+                # The same for arrows, and for tubes.
+                for kind, on in (("arrows", "x,y,r"), ("trace", "mol")):
+                    if row["id"].startswith(kind.rstrip("s") + "_"):
+                        picture[kind] = on
+                        extra = [f"--{kind}", on]
                 with open(self.path("scene.json"), "w") as file:
-                    json.dump({"bihive_scene": 2, "picture": picture, "spheres": {"file": self.path("spheres.csv")}}, file)
+                    json.dump({"bihive_scene": 2, "picture": picture, "spheres": {"file": spheres}}, file)
                 by_file = self.hash(self.path("scene.json"), *size)
                 option = row["option"] if value is not False else row["option"].replace("--", "--no-", 1)
                 words = [option] if row["kind"] == "flag" else [f"{option}={value}"]
-                by_option = self.hash(self.path("spheres.csv"), *size, "--style", "plain", *extra, *words)
+                by_option = self.hash(spheres, *size, "--style", "plain", *extra, *words)
                 self.assertEqual(by_option, by_file, row["id"])
 
     def hash(self, source, *words):

@@ -1,7 +1,5 @@
 """`bihive render --stereo` and `bihive film --stereo`."""
 
-# ctest: asan-long
-
 import json
 
 from program import ProgramTest, main, png_pixels

@@ -1,7 +1,5 @@
 """BIHIVE_TARGET: every instruction set of the machine can be forced, is named in the output, and gives the same bytes."""
 
-# ctest: asan-long
-
 import json
 import os
 import re

@@ -1,6 +1,5 @@
 """Figure 4.4 at small size: what is counted, what follows from it, and that clocks decide nothing."""
 
-# ctest: asan-long
 # ctest: COST 700
 
 import json

@@ -1,6 +1,5 @@
 """bihive thesis: the figures that are pictures (4.1, 4.2, 4.3), at small size."""
 
-# ctest: asan-long
 # ctest: COST 700
 
 import json

@@ -1,6 +1,5 @@
 """The report of `bihive thesis`: interrupted runs, resumed runs, verdicts, and results.json against its schema."""
 
-# ctest: asan-long
 # ctest: COST 700
 
 import json

@@ -1,7 +1,5 @@
 """bihive thesis: Table 4.2, Figure 4.5 and section D against values that are known without the program."""
 
-# ctest: asan-long
-
 import copy
 import csv
 import json

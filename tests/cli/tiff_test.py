@@ -1,7 +1,5 @@
 """`bihive render -o x.tif`: pictures as TIFF."""
 
-# ctest: asan-long
-
 import struct
 import unittest
 import zlib

@@ -1,7 +1,5 @@
 """bihive render: exposure and tone curves."""
 
-# ctest: asan-long
-
 import json
 
 from program import ProgramTest, main, png_numbers

@@ -1,7 +1,5 @@
 """bihive render: transparent pictures, 16 bits, the size in print, and the picture on the standard output."""
 
-# ctest: asan-long
-
 import os
 import struct
 import subprocess

@@ -1,7 +1,5 @@
 """Help, version, and every way to call the program wrongly."""
 
-# ctest: asan-long
-
 import os
 import re
 import shlex
@@ -77,10 +75,11 @@ class Help(ProgramTest):
 
     def test_what_is_not_drawn(self):
         for command in ("render", "film"):
-            for word in ("--cartoon", "--surface", "--arrows=vx,vy,vz", "--bonds"):
+            for word in ("--cartoon", "--surface", "--mesh", "--ribbons"):
                 said = self.fail_usage(command, "demo", "-o", "a.png", word)
-                self.assertIn("bihive draws spheres alone; docs/coming_from.md", said)
-        for word, ours in [("--perspective", "--projection perspective"), ("--transparency=0.3", "--opacity"), ("--width", "--size WxH")]:
+                self.assertIn("bihive draws spheres, bonds, arrows and tubes; docs/coming_from.md", said)
+        for word, ours in [("--perspective", "--projection perspective"), ("--transparency=0.3", "--opacity"), ("--width", "--size WxH"),
+                           ("--licorice", "--style licorice"), ("--tube", "--trace chain"), ("--vectors=vx,vy,vz", "--arrows")]:
             self.assertIn(f"did you mean {ours}", self.fail_usage("render", "demo", "-o", "a.png", word))
         # None of them is an option of ours, and each advice names one.
         with open(os.path.join(os.environ["BIHIVE_SOURCE"], "apps/cli/words/foreign_options.h"), encoding="utf-8") as file:

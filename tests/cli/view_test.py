@@ -1,6 +1,5 @@
 """bihive view: the window on a screen of its own (Xvfb), its content, and the effect of keys and pointer (xdotool)."""
 
-# ctest: asan-long
 # ctest: COST 700
 
 import json

@@ -8,6 +8,7 @@ import os
 import re
 import signal
 import socket
+import struct
 import stat
 import subprocess
 import time
@@ -100,6 +101,18 @@ class WebTest(ProgramTest):
 PLACES = "".join(f'<script id="page_{name}" type="text/plain"></script>\n' for name in ["state", "file", "trajectory"])
 
 
+def dcd_of_one_atom(x_of_frames):
+    """A trajectory in the format of CHARMM and NAMD: records of bytes between their lengths."""
+
+    def record(content):
+        return struct.pack("<i", len(content)) + content + struct.pack("<i", len(content))
+
+    numbers = [0] * 20
+    numbers[0], numbers[2], numbers[3], numbers[19] = len(x_of_frames), 1, len(x_of_frames), 24
+    records = [record(b"CORD" + struct.pack("<20i", *numbers)), record(struct.pack("<i", 1) + b" " * 80), record(struct.pack("<i", 1))]
+    return b"".join(records + [record(struct.pack("<f", value)) for x in x_of_frames for value in (x, 0, 0)])
+
+
 class OneFile(WebTest):
     def made(self, *words):
         return self.run_bihive("web", *words, "--html", "out.html", env=self.environment)
@@ -121,6 +134,23 @@ class OneFile(WebTest):
         self.assertEqual(state["source"], {"file": 'a"b.xyz'})
         self.assertEqual(state["settings"]["camera"]["eye"], [1, 2, 9])
         self.assertEqual(state["look"]["style"], "studio")
+
+    def test_a_trajectory_is_in_it(self):
+        self.write("page/one_file.html", PLACES)
+        self.write("a.xyz", "1\n\nC 0 0 0\n")
+        moves = dcd_of_one_atom([0, 1, 2])
+        self.write("moves.dcd", moves)
+        done = self.made("a.xyz", "--trajectory", "moves.dcd", "--frame", "1")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        places = re.findall(r'<script id="page_(\w+)" type="text/plain" data-name="([^"]*)"[^>]*>(.*)</script>', self.read("out.html").decode("ascii"))
+        self.assertEqual([(name, file) for name, file, _ in places], [("state", ""), ("file", "a.xyz"), ("trajectory", "moves.dcd")])
+        content = base64.b64decode(places[2][2])
+        self.assertEqual((gzip.decompress(content) if content[:2] == b"\x1f\x8b" else content), moves)
+        state = json.loads(gzip.decompress(base64.b64decode(places[0][2])))
+        self.assertEqual(state["source"], {"file": "a.xyz", "trajectory": "moves.dcd", "reading": {"frame": "1"}})
+        own = self.run_bihive("web", "a.xyz", "--trajectory", "moves.dcd", "--html", "moves.dcd", env=self.environment)
+        self.assertIn("is the input", own.stderr)
+        self.assertEqual(self.read("moves.dcd"), moves)
 
     def test_refusals(self):
         self.write("a.xyz", "1\n\nC 0 0 0\n")

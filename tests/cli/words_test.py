@@ -1,7 +1,5 @@
 """Manual pages and completions are written from the command line's own description, so they say what --help says."""
 
-# ctest: asan-long
-
 import json
 import os
 import pathlib

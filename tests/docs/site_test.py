@@ -67,6 +67,20 @@ class Site(unittest.TestCase):
         self.assertIn('id="bihive.Tree.nearest"', (pages / "Tree.html").read_text(encoding="utf-8"))
         self.assertGreater(len(list(pages.glob("*.html"))), 30)
 
+    def test_every_function_of_c_has_a_page_with_its_declaration(self):
+        header = (SOURCE / "bindings/c/bihive.h").read_text(encoding="utf-8")
+        names = re.findall(r"^BIHIVE_API .*?\b(bihive_\w+)\(", header, re.M)
+        self.assertGreater(len(names), 30)
+        pages = self.html / "docs/site/c_names"
+        listed = (pages / "index.html").read_text(encoding="utf-8")
+        for name in [*names, "bihive_rays", "bihive_lists", "bihive_progress", "BIHIVE_SURFACE", "BIHIVE_CANCELLED"]:
+            text = re.sub(r"<[^>]+>", "", (pages / f"{name}.html").read_text(encoding="utf-8"))
+            self.assertRegex(text, rf"{name}(\(|\)|;| =)")
+            self.assertIn(f'{name}.html', listed)
+        nearest = re.sub(r"<[^>]+>", "", (pages / "bihive_nearest.html").read_text(encoding="utf-8"))
+        self.assertIn("Missing ones: infinity and -1.", nearest)
+        self.assertIn("const uint8_t* mask", nearest.replace("uint8_t *", "uint8_t* "))
+
     def test_every_link_leads_somewhere(self):
         self.assertGreater(len(self.pages), 60)
         checked = 0

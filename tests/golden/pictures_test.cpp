@@ -7,9 +7,13 @@
 #include "bihive/io/read_spheres.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tree_picture.h"
+#include "bihive/scene/bonds.h"
+#include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
+#include "bihive/scene/load_scene.h"
 #include "bihive/scene/palette.h"
+#include "bihive/scene/style.h"
 #include "support/golden.h"
 
 namespace bihive {
@@ -98,6 +102,29 @@ TEST(Tree, drawn_at_a_readable_size) {
   settings.height_px = 240;
   testing::expect_golden("tree-molecule", image_from_film(render(molecule, molecule_tracer, settings).value().film,
                                                           View::tree, Transfer::none));
+}
+
+TEST(Molecule, bonds) {
+  // Ethanol, by the two styles that draw bonds.
+  const std::string ethanol =
+      "9\n\n"
+      "C 1.1879 -0.3829 0\nC 0 0.5526 0\nO -1.1867 -0.2472 0\nH -1.9237 0.3850 0\nH 2.0985 0.2306 0\n"
+      "H 1.1184 -1.0093 0.8869\nH 1.1184 -1.0093 -0.8869\nH -0.0227 1.1812 0.8852\nH -0.0227 1.1812 -0.8852\n";
+  for (const std::string name : {"ball-and-stick", "licorice"}) {
+    const Style style = style_named(name).value();
+    Scene scene = load_scene(ethanol, "ethanol.xyz", {}, LooksOfFile::apply, &style).value().scene;
+    ASSERT_TRUE(scale_balls(scene, scene.picture.sticks));
+    ASSERT_TRUE(find_bonds(scene, scene.picture.sticks));
+    EXPECT_EQ(scene.sticks.size(), 8);
+    scene.camera = frame_spheres(scene.spheres, ViewFrom::iso, 30, kWidth, kHeight);
+    scene.lights = lights_around(style.lights, scene.camera);
+    const Tracer tracer = Tracer::build(scene, Engine::wide).value();
+    RenderSettings settings = settings_from(scene.picture);
+    settings.width_px = kWidth;
+    settings.height_px = kHeight;
+    testing::expect_golden("ethanol-" + name, image_from_film(render(scene, tracer, settings).value().film,
+                                                              View::shaded, scene.picture.transfer));
+  }
 }
 
 TEST(Molecule, bundled) {

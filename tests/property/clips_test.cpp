@@ -77,12 +77,10 @@ struct Expected {
   Real thickness = kNoHit;
 };
 
-Expected expected_hit(const Scene& scene, const Ray& ray, std::int64_t id) {
-  std::vector<Real> ends;
-  add_roots(ray, scene.spheres.centre(id), scene.spheres.radius(id), ends);
+// `ends`: where the line goes through the whole body, or nothing; `bits`: of the clips that cut it.
+Expected expected_of(const Scene& scene, const Ray& ray, std::vector<Real> ends, std::uint64_t bits) {
   if (ends.empty()) return {};
   const Real near = ends[0], far = ends[1];
-  const std::uint64_t bits = scene.spheres.attributes().clips[static_cast<std::size_t>(id)];
   for (std::size_t k = 0; k < scene.clips.size(); ++k)
     if ((bits >> k & 1) != 0) add_borders(ray, scene.clips[k], ends);
   std::sort(ends.begin(), ends.end());
@@ -111,6 +109,12 @@ Expected expected_hit(const Scene& scene, const Ray& ray, std::int64_t id) {
     before = after;
   }
   return found;
+}
+
+Expected expected_hit(const Scene& scene, const Ray& ray, std::int64_t id) {
+  std::vector<Real> ends;
+  add_roots(ray, scene.spheres.centre(id), scene.spheres.radius(id), ends);
+  return expected_of(scene, ray, ends, scene.spheres.attributes().clips[static_cast<std::size_t>(id)]);
 }
 
 Ray random_ray(SplitMix64& rng, double size, Vec3d middle) {
@@ -328,6 +332,114 @@ TEST(Clips, NoCapShadowsAnother) {
       EXPECT_FALSE(tracer.occluded(next)) << unit << ", ray " << i;
     }
     EXPECT_GT(caps, 100) << unit;
+  }
+}
+
+// Bonds between random spheres.
+void add_sticks(Scene& scene, double radius, SplitMix64& rng) {
+  std::vector<SpherePair> pairs;
+  const auto count = static_cast<std::uint64_t>(scene.spheres.size());
+  for (int i = 0; i < 60; ++i)
+    pairs.push_back(
+        {static_cast<std::int32_t>(rng.next_below(count)), static_cast<std::int32_t>(rng.next_below(count))});
+  scene.sticks = StickSet::between(scene.spheres, pairs, radius).value();
+  // And round cones, some of which end in a point.
+  std::vector<OwnStick> cones;
+  for (int i = 0; i < 30; ++i) {
+    const SpherePair& pair = pairs[static_cast<std::size_t>(i)];
+    cones.push_back({scene.spheres.local_centre(pair[0]), scene.spheres.local_centre(pair[1]), 1.5 * radius,
+                     i % 3 == 0 ? 0 : radius * rng.next_double(), pair[0]});
+  }
+  ASSERT_TRUE(scene.sticks.add(scene.spheres, cones).ok());
+}
+
+TEST(Clips, CutSticksAgreeWithConstructiveSolidGeometry) {
+  std::int64_t hits = 0, on_caps = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SplitMix64 rng(400 + seed);
+    Scene scene = scene_of(test::random_world("random", seed, 40, 10, 0.3, 3));
+    test::add_random_clips(seed, 10, scene);
+    add_sticks(scene, 0.4 + 0.2 * double(seed % 4), rng);
+    const std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
+    ASSERT_NE(cuts, nullptr);
+    const double scale = scene.spheres.inverse_scale();
+    std::int64_t grazed = 0;
+    const std::int64_t rays = 4000 / test::ray_share();
+    for (std::int64_t i = 0; i < rays; ++i) {
+      const auto stick = static_cast<std::int64_t>(rng.next_below(std::uint64_t(scene.sticks.size())));
+      const Stick stored = scene.sticks.stored(scene.spheres, stick);
+      const Vec3d aim = (stored.a + rng.next_double() * (stored.b - stored.a)) * scale;
+      Ray ray = random_ray(rng, 15, {});
+      const auto beside = [&] { return 0.8 * (2 * rng.next_double() - 1); };
+      ray.direction = to_float(aim + Vec3d{beside(), beside(), beside()} - to_double(ray.origin));
+      if (!is_valid(ray) || cuts->remainder_of_stick(stick) == Remainder::whole) continue;
+      std::uint64_t bits = ~std::uint64_t{0};
+      for (const std::int64_t half : {2 * stick, 2 * stick + 1})
+        bits &= scene.spheres.attributes().clips[static_cast<std::size_t>(scene.sticks.sphere_at(scene.spheres, half))];
+      const StickRay of = stick_ray(ray, scene.spheres, scene.sticks);
+      const StickRoots roots = stick_roots(of.ray, stored);
+      std::vector<Real> ends;
+      if (roots.t_near <= roots.t_far) ends = {roots.t_near, roots.t_far};
+      const Expected expected = expected_of(scene, ray, ends, bits);
+      CutHit found;
+      if (cuts->remainder_of_stick(stick) == Remainder::cut) {
+        const CutRay entered = cuts->entering(ray, cuts->cutting_sticks());
+        found = cuts->stick_hit(entered, cuts->stick_ray_of(ray, entered), stick).hit;
+      }
+      const bool same = expected.t == kNoHit ? found.t == std::numeric_limits<double>::infinity()
+                                             : std::abs(found.t - expected.t) <= 1e-9L * std::max<Real>(1, expected.t);
+      hits += expected.t < kNoHit ? 1 : 0;
+      on_caps += found.clip >= 0 ? 1 : 0;
+      if (same) continue;
+      ++grazed;
+      ASSERT_TRUE(expected.thickness < 1e-6L || expected.t == kNoHit || expected.t < 1e-9L)
+          << seed << ", ray " << i << ", stick " << stick << ": " << found.t << ", expected "
+          << static_cast<double>(expected.t);
+    }
+    EXPECT_LE(grazed, rays / 500) << seed;
+  }
+  EXPECT_GT(hits, 1000 / test::ray_share());
+  EXPECT_GT(on_caps, 300 / test::ray_share());
+}
+
+TEST(Clips, EveryEngineGivesTheSameBitsOfSticks) {
+  for (std::uint64_t seed = 1; seed <= 4; seed += static_cast<std::uint64_t>(test::ray_share())) {
+    SplitMix64 rng(500 + seed);
+    Scene scene = scene_of(test::random_world("random", seed, 60, 10, 0.3, 6));
+    test::add_random_clips(seed, 10, scene);
+    add_sticks(scene, 0.3, rng);
+    expect_same_answers(scene, seed);
+  }
+}
+
+// The same for sticks of their spheres' radius: what leaves a cap, of a ball or of a stick, meets nothing.
+TEST(Clips, NoCapShadowsAnotherOfSticks) {
+  test::World world;
+  SplitMix64 rng(6);
+  for (int i = 0; i < 40; ++i)
+    world.add(3 * (2 * rng.next_double() - 1), 3 * (2 * rng.next_double() - 1), 3 * (2 * rng.next_double() - 1), 0.25);
+  Scene scene = scene_of(world);
+  const Vec3d normal{0.3, -0.2, 0.9};
+  clip_all(scene, {PlaneClip{normal, 0.1}});
+  add_sticks(scene, 0.25, rng);
+  for (const Engine engine : {Engine::wide, Engine::reference}) {
+    const Tracer tracer = Tracer::build(scene, engine).value();
+    int caps[2] = {0, 0};
+    for (int i = 0; i < 12000; ++i) {
+      const Ray ray = random_ray(rng, 4, {});
+      const SceneHit hit = scene_hit(scene, tracer, ray);
+      if (!hit.found()) continue;
+      const Surface surface = surface_at(scene, ray, hit);
+      if (surface.from_inside || dot(surface.normal, normalized(normal)) < 1 - 1e-12) continue;
+      ++caps[hit.id >= scene.spheres.total_size() ? 1 : 0];
+      Ray next = random_ray(rng, 1, {});
+      if (dot(to_double(next.direction), normal) < 0) next.direction = -next.direction;
+      next.origin = surface.origin;
+      next.leaves = surface.id;
+      EXPECT_FALSE(tracer.occluded(next)) << i;
+    }
+    EXPECT_GT(caps[0], 5);
+    EXPECT_GT(caps[1], 100);
   }
 }
 

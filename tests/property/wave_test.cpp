@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "bihive/geometry/stick_set.h"
 #include "bihive/math/rng.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/shade/integrator.h"
@@ -97,6 +98,71 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
       }
     }
   }
+}
+
+// Between the first spheres of the scene, in a chain; as thick as the first sphere, or thinner. Then arrows on them, of
+// which every other one has a colour of its own.
+StickSet chain_of(SphereSet& spheres, std::uint64_t seed) {
+  std::vector<SpherePair> pairs;
+  for (std::int32_t i = 0; i + 1 < std::min<std::int64_t>(spheres.size(), 12); ++i) pairs.push_back({i, i + 1});
+  const double radius = spheres.radius(0) * (seed % 3 == 0 ? 1 : 0.3);
+  StickSet made = StickSet::between(spheres, pairs, radius).value();
+  std::vector<OwnStick> arrows;
+  for (const auto& [one, other] : pairs) {
+    const Vec3d from = spheres.local_centre(one);
+    OwnStick arrow{from, 2.0 * from - spheres.local_centre(other), 2 * radius, 0, one};
+    if (one % 2 == 0) arrow.colour = Vec3f{0.25F, 0.5F, 0.125F * static_cast<float>(one % 8)};
+    arrows.push_back(arrow);
+  }
+  EXPECT_TRUE(made.add(spheres, arrows));
+  return made;
+}
+
+TEST(Wave, sticks_are_those_of_one_ray_after_the_other) {
+  const BestTargetAgain restore;
+  std::int64_t on_sticks = 0;
+  for (std::uint64_t seed = 401; seed <= 424; seed += step()) {
+    Scene scene = test::random_scene(seed);
+    if (scene.spheres.size() < 3 || !(scene.spheres.radius(0) > 0)) continue;
+    for (Material& material : scene.materials) material.transmissive = 0;
+    scene.spheres.attributes().opacity.clear();
+    scene.clips.clear();
+    scene.sticks = chain_of(scene.spheres, seed);
+    RenderSettings settings = test::random_settings(seed);
+    const Expected expected = one_after_the_other(scene, settings);
+    for (const Engine engine : {Engine::wide, Engine::reference, Engine::brute}) {
+      const Tracer tracer = Tracer::build(scene, engine).value();
+      for (const std::string& target : test::targets_under_test()) {
+        ASSERT_TRUE(use_target(target));
+        const Result<Rendered> rendered = render(scene, tracer, settings);
+        ASSERT_TRUE(rendered);
+        expect_same(expected, *rendered, scene.name + " on " + target);
+        if (::testing::Test::HasFailure()) return;
+      }
+      const PixelRays pixels(scene.camera, settings.width_px, settings.height_px);
+      for (int y = 0; y < settings.height_px; ++y)
+        for (int x = 0; x < settings.width_px; ++x)
+          on_sticks += tracer.closest_hit(pixels.at(x + 0.5, y + 0.5)).sphere_id >= scene.spheres.size() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(on_sticks, static_cast<std::int64_t>(1000 / step()));  // fewer scenes, fewer hits
+}
+
+TEST(Wave, sticks_are_refused_where_they_would_be_wrong) {
+  Scene scene = test::random_scene(3);
+  for (Material& material : scene.materials) material.transmissive = 0;
+  scene.spheres.attributes().opacity.clear();
+  scene.sticks = chain_of(scene.spheres, 3);
+  const RenderSettings settings = test::random_settings(3);
+  const Tracer tracer = Tracer::build(scene, Engine::reference).value();
+  EXPECT_FALSE(render(scene, Tracer::build(scene.spheres, Engine::reference).value(), settings));
+  RenderSettings of_tree = settings;
+  of_tree.view = View::traversal;
+  of_tree.transparent = false;
+  EXPECT_FALSE(render(scene, tracer, of_tree));
+  scene.materials.front().transmissive = 0.5;
+  EXPECT_FALSE(Tracer::build(scene, Engine::wide));
+  EXPECT_FALSE(render(scene, tracer, settings));
 }
 
 TEST(Wave, planes_that_show_shadows_alone) {

@@ -183,8 +183,9 @@ class Arguments(ProgramTest):
                 self.judge(call, {**valid, name: HOSTILE[label]}, name, label)
 
     def test_every_public_name_is_tried(self):
-        tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs",
-                 "again", "angle", "colour_map", "convert", "dihedral", "distance", "film", "linear", "read", "render", "save_page", "select", "stats", "verify", "view"}
+        tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
+                 "again", "angle", "buried_area", "colour_map", "contacts", "convert", "dihedral", "distance", "film", "linear", "measure", "page", "porosity", "read", "render", "sasa", "save_page", "select", "stats",
+                 "verify", "view", "volume"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
@@ -212,6 +213,10 @@ class Arguments(ProgramTest):
         self.try_all(bh.select, {"spheres": self.spheres, "expression": "all"})
         self.try_all(bh.stats, {"spheres": self.spheres})
         self.try_all(bh.distance, {"spheres": self.spheres, "pairs": [[0, 1], [2, 3]]})
+        for call in (bh.measure, bh.sasa, bh.volume, bh.contacts):
+            self.try_all(call, {"spheres": self.spheres})
+        self.try_all(bh.porosity, {"spheres": bh.Spheres(np.zeros((1, 3)), radius=1, cell=[2, 2, 2])})
+        self.try_all(bh.buried_area, {"spheres": self.spheres, "groups": [[0], [1, 2]]})
         self.try_all(bh.angle, {"spheres": self.spheres, "triples": [0, 1, 2]})
         self.try_all(bh.dihedral, {"spheres": self.spheres, "quadruples": [0, 1, 2, 3]})
         self.try_all(bh.colour_map, {"values": [1.0, 2, 3, 4]})
@@ -281,6 +286,22 @@ class Arguments(ProgramTest):
 
         save_page.__signature__ = inspect.signature(bh.save_page)
         self.try_all(save_page, {"source": self.spheres, "path": self.path("a.html")}, options=["samples", "floor"])
+
+    def test_page(self):
+        os.environ["BIHIVE_PAGE"] = self.path("nowhere")
+        self.addCleanup(os.environ.pop, "BIHIVE_PAGE")
+
+        def page(source=self.spheres, **options):
+            try:
+                return bh.page(source, **options)
+            except bh.MissingError:
+                return None
+
+        page.__signature__ = inspect.signature(bh.page)
+        self.try_all(page, {"source": self.spheres}, options=["samples", "floor"])
+        for name in ("html", "name"):
+            for label, value in HOSTILE.items():
+                self.judge(bh.Page, {"html": "", "name": "", name: value}, "Page", label)
 
     def test_cameras_and_looks(self):
         for kind, key in ((bh.Orthographic, "camera"), (bh.Perspective, "camera"), (bh.Look, "looks"), (bh.Style, "style")):

@@ -17,6 +17,8 @@ MOST_KB = 1.5  # per call; an arena of oneTBB per call was 7 kB
 # Names that are not called, and why.
 LEFT_OUT = {
     "save_page": "it starts a program for each call",
+    "page": "it starts a program for each call",
+    "Page": "made by page()",
     "view": "it starts a server",
     "View": "a server",
     "View.close": "it ends a server",
@@ -49,6 +51,8 @@ def cases(folder):
     xyz, points = generator.normal(size=(2000, 3)), generator.normal(size=(600, 3))
     rays = generator.normal(size=(600, 3))
     s = bh.Spheres(xyz, radius=0.05, columns={"charge": xyz[:, 0]})
+    few = s[:100]
+    crystal = bh.Spheres([[0, 0, 0]], radius=1, cell=[2, 2, 2])
     tree = bh.Tree(s, threads=2)
     options = {"size": (64, 48), "threads": 2, "samples": 1}
     picture = bh.render(s, **options)
@@ -80,6 +84,7 @@ def cases(folder):
         "Tree.count_within": lambda: [one.count_within(points, 0.1, **some) for one in (tree, box) for some in choices],
         "Tree.pairs": lambda: tree.pairs(0.1),
         "Tree.update": lambda: moving.update(xyz),
+        "Spheres.bonds": lambda: bh.Spheres(xyz, radius=0.05, bonds=np.arange(2000).reshape(-1, 2)).bonds,
         "Spheres.moved": lambda: s.moved(xyz),
         "Spheres.with_columns": lambda: s.with_columns({"more": xyz[:, 1]}),
         "Picture": lambda: np.asarray(bh.render(s, **options)).sum(),
@@ -112,6 +117,14 @@ def cases(folder):
         "render": lambda: bh.render(s, **options),
         "select": lambda: bh.select(s, "charge > 0"),
         "distance": lambda: bh.distance(s, [[0, 1], [5, 9]]),
+        "measure": lambda: bh.measure(few, probe=0.1, select="charge > 0", threads=2),
+        "sasa": lambda: bh.sasa(few),
+        "volume": lambda: bh.volume(few),
+        "Measures": fields(bh.measure(few, derivatives=True)),
+        "Contacts": fields(bh.contacts(few)),
+        "contacts": lambda: bh.contacts(few),
+        "porosity": lambda: bh.porosity(crystal),
+        "buried_area": lambda: bh.buried_area(few, [[0], [1, 2]]),
         "angle": lambda: bh.angle(s, [[0, 1, 2], [5, 9, 7]]),
         "dihedral": lambda: bh.dihedral(s, [0, 1, 2, 3]),
         "stats": lambda: bh.stats(s),

@@ -74,6 +74,44 @@ class Documentation(ProgramTest):
         self.assertEqual(spelt - options, set())
 
 
+class Tutorial(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.path("build"))
+        os.symlink(os.environ["BIHIVE"], self.path("build/bihive"))
+        os.symlink(os.path.join(SOURCE, "data"), self.path("data"))
+
+    def blocks(self, page, kind):
+        with open(os.path.join(SOURCE, "docs", "tutorial", page), encoding="utf-8") as file:
+            return re.findall(rf"^```{kind}\n(.*?)^```", file.read(), re.M | re.S)
+
+    def test_commands_run_as_pasted(self):
+        # Only pictures and films are smaller, so that the test is.
+        ran = 0
+        for page in ["first_picture.md", "own_looks.md", "films.md"]:
+            for block in self.blocks(page, "sh"):
+                block = re.sub(r" --(size|pictures) \S+", "", block.replace("\\\n", " "))
+                block = re.sub(r"^build/bihive render (?!--film).*", r"\g<0> --size 96x72 --samples 1", block, flags=re.M)
+                block = re.sub(r"^build/bihive film .*", r"\g<0> --size 96x72 --samples 1", block, flags=re.M)
+                block = re.sub(r"^.*--turntable.*", r"\g<0> --pictures 3", block, flags=re.M)
+                done = subprocess.run(["bash", "-e", "-c", block], cwd=self.folder, capture_output=True, text=True, timeout=PATIENCE_S)
+                self.assertEqual(done.returncode, 0, page + ":\n" + block + done.stdout + done.stderr)
+                ran += block.count("build/bihive")
+        self.assertGreater(ran, 15)
+
+    def test_python_runs_as_pasted(self):
+        here = os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, here)
+        names = {}
+        blocks = self.blocks("python.md", "python")
+        self.assertEqual(len(blocks), 3)
+        for block in blocks:
+            exec(compile(re.sub(r"size=\(\d{3}, \d{3}\)", "size=(64, 48)", block).replace('select="chain A")', 'select="chain A", size=(64, 48))'), "python.md", "exec"), names)
+        for name in ["cloud.png", "a.png", "run.mp4"]:
+            self.assertGreater(os.path.getsize(name), 100)
+
+
 class Types(ProgramTest):
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed: scripts/setup test installs it")
     def test_mypy(self):

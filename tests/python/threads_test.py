@@ -85,7 +85,7 @@ class Threads(ProgramTest):
         arguments = {"__getitem__": ("charge",), "core.select": ("element C and charge > 0", "select", True), "core.written": ("csv",),
                      "core.measured": (np.array([[0, 1, 2], [4, 3, 9]]), True), "core.statistics": ([],), "core.what_there_is": ("element Fe",),
                      "core.column": ("part",)}
-        calls = calls_of(s, self.folder, arguments, left_out={"save", "moved", "with_columns", "core.statistics", "core.part", "core.moved", "core.with_columns"})
+        calls = calls_of(s, self.folder, arguments, left_out={"save", "moved", "with_columns", "core.statistics", "core.part", "core.moved", "core.with_columns", "core.with_bonds"})
         calls["moved"] = lambda: s.moved(s.xyz + 1).xyz
         calls["with_columns"] = lambda: s.with_columns({"more": s.radius})["more"]
         calls["save"] = lambda: s.save(self.path_of_thread("csv"))
@@ -94,6 +94,9 @@ class Threads(ProgramTest):
         calls["render"] = lambda: np.asarray(bh.render(s, **SMALL))
         calls["tree"] = lambda: bh.Tree(s).closest(*RAYS)
         calls["stats"] = lambda: bh.stats(s)["spheres"]
+        calls["with_bonds"] = lambda: s._core.with_bonds(np.array([[0, 1, 1]], dtype=np.int32), True).bonds
+        calls["measure"] = lambda: bh.measure(s, probe=0.5, threads=2).sphere_volume
+        calls["contacts"] = lambda: bh.contacts(s, threads=2).area
         self.together(calls)
 
     def test_tree(self):

@@ -1,6 +1,8 @@
 """bihive.Tree: answers beside brute force in NumPy and beside the engine that tests every sphere."""
 
 import pickle
+import signal
+import time
 import unittest
 
 import bihive as bh
@@ -680,6 +682,54 @@ class Queries(unittest.TestCase):
         self.assertEqual(found.keys(), stated.keys())
         for key in ["spheres", "inner_nodes", "leaves"]:
             self.assertEqual(found[key], stated[key])
+
+
+class Interrupts(unittest.TestCase):
+    """Ctrl-C, or any signal whose handler throws, ends a query within some hundredths of a second of work."""
+
+    def test_every_query_ends_soon(self):
+        class Enough(Exception):
+            pass
+
+        def throw(*_):
+            raise Enough
+
+        rng = np.random.default_rng(3)
+        count = 1_500_000
+        xyz, origins = rng.random((200_000, 3)), rng.random((count, 3)).astype(np.float32)
+        spheres = bh.Spheres(xyz, radius=0.004, cell=[1, 1, 1])
+        few = bh.Spheres(xyz[:4000], radius=0.01)
+        directions = rng.normal(size=(count, 3)).astype(np.float32)
+        tree, points = bh.Tree(spheres, threads=1), rng.random((count, 3))
+        hits = tree.closest(origins, directions)
+        queries = {
+            "closest": lambda: tree.closest(origins, directions),
+            "closest, periodic": lambda: tree.closest(origins, directions, t_max=2, periodic=True),
+            "occluded": lambda: tree.occluded(origins, directions),
+            "all_hits": lambda: tree.all_hits(origins, directions),
+            "nearest": lambda: tree.nearest(points, 8),
+            "within": lambda: tree.within(points, 0.03),
+            "count_within": lambda: tree.count_within(points, 0.05),
+            "pairs": lambda: tree.pairs(0.05),
+            "derivatives": lambda: hits.derivatives(),
+            "brute": lambda: bh.Tree(few, engine="brute", threads=1).closest(origins, directions),
+            "reference": lambda: bh.Tree(few, engine="reference", threads=1).closest(origins, directions),
+        }
+        before = signal.signal(signal.SIGPROF, throw)
+        self.addCleanup(signal.signal, signal.SIGPROF, before)
+        ended = 0
+        for name, query in queries.items():
+            with self.subTest(name):
+                begin, wait_s = time.process_time(), 0.1  # of processor time
+                signal.setitimer(signal.ITIMER_PROF, wait_s)
+                try:
+                    query()
+                except Enough:
+                    self.assertLess(time.process_time() - begin - wait_s, 0.5)
+                    ended += 1
+                finally:
+                    signal.setitimer(signal.ITIMER_PROF, 0)
+        self.assertGreaterEqual(ended, 6)  # fast machines have answered others before
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
 """bihive.view: the program serves spheres that lie in memory."""
 
+import html
 import json
 import os
+import re
 import threading
 import urllib.request
 import unittest
@@ -55,6 +57,20 @@ class View(ProgramTest):
         with self.assertRaises(FileNotFoundError):
             bh.save_page(self.path("missing.xyz"), self.path("other.html"))
         self.assertFalse(os.path.exists(self.path("other.html")))
+
+    def test_a_page_for_a_notebook(self):
+        places = "".join(f'<script id="page_{name}" type="text/plain"></script>\n' for name in ("state", "file", "trajectory"))
+        self.write("page/one_file.html", "<!doctype html><p>a & b</p>" + places)
+        made = bh.page(bh.Spheres(np.eye(3), radius=0.5, name='th"ree'), style="studio")
+        self.assertRegex(made.html, r'data-name="th(&quot;|")ree.extxyz"')
+        self.assertRegex(repr(made), r'<bihive.Page: th"ree, 0.0 MB>')
+        shown = made._repr_html_()
+        srcdoc, *more = re.findall(r' srcdoc="([^"]*)"></iframe>$', shown)
+        self.assertEqual((html.unescape(srcdoc), more), (made.html, []), "all of it, in one attribute")
+        self.assertIn(' sandbox="allow-scripts allow-downloads"', shown)
+        self.assertIn('title="th&quot;ree"', shown)
+        with self.assertRaisesRegex(bh.UsageError, "no_such"):
+            bh.page("demo", no_such=1)
 
     def test_files_and_built_in_names(self):
         self.write("a.csv", "x,y,z\n0,0,0\n")

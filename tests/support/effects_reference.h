@@ -79,19 +79,26 @@ class EffectsReference {
         scene_hit(scene_, transparent_ != nullptr ? transparent_->closest_opaque(ray) : tracer_.closest_hit(ray), ray);
     const bool shadows_only = hit.id == kPlane && scene_.plane->shadows_only;
     if (!hit.found() || shadows_only) return {std::numeric_limits<double>::infinity(), kNothing};
-    return {hit.t * dot(to_double(ray.direction), pixels_.forward()), hit.id};
+    // Both halves of a stick are one thing.
+    const std::int64_t half = hit.id - scene_.spheres.total_size();
+    return {hit.t * dot(to_double(ray.direction), pixels_.forward()), half >= 0 ? hit.id - half % 2 : hit.id};
+  }
+
+  double radius_of(std::int64_t id) const {
+    const std::int64_t half = id - scene_.spheres.total_size();
+    return half < 0 ? scene_.spheres.radius(id)
+                    : scene_.sticks.stored_radius(half / 2) * scene_.spheres.inverse_scale();
   }
 
   // In pixels.
   double width_of_line(Seen here) const {
     const double pixel = length(pixels_.right()) * (pixels_.parallel() ? 1 : here.depth);
-    return std::min(settings_.outline->width_px * line_unit_px(settings_),
-                    scene_.spheres.radius(here.id) / (6 * pixel));
+    return std::min(settings_.outline->width_px * line_unit_px(settings_), radius_of(here.id) / (6 * pixel));
   }
 
   bool is_outlined(double x, double y, LensPlace lens, Seen here) const {
     const double width = std::max(width_of_line(here), 1.0);
-    const double limit = here.depth + settings_.outline->step * scene_.spheres.radius(here.id);
+    const double limit = here.depth + settings_.outline->step * radius_of(here.id);
     for (int dy = -16; dy <= 16; ++dy)
       for (int dx = -16; dx <= 16; ++dx) {
         if (dx * dx + dy * dy > width * width) continue;

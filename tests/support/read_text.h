@@ -25,6 +25,12 @@ inline std::string error_of(std::string_view text, const std::string& name, cons
   return file.ok() ? "" : file.error().to_string();
 }
 
+/// The text with `to` in the place of the first `from`; the test fails where there is none.
+inline std::string with(std::string text, const std::string& from, const std::string& to) {
+  EXPECT_NE(text.find(from), std::string::npos) << from;
+  return text.replace(text.find(from), from.size(), to);
+}
+
 inline ReadOptions at_frame(std::int64_t frame) {
   ReadOptions options;
   options.frame = frame;
@@ -36,6 +42,15 @@ inline std::vector<double> numbers_of(const SphereFile& file, const std::string&
   for (const NamedNumbers& column : file.spheres.attributes().numbers)
     if (column.name == name) return column.values;
   return {};
+}
+
+/// The texts of a column, by id; none without the column.
+inline std::vector<std::string> texts_of(const SphereFile& file, const char* name) {
+  const NamedTexts* const column = file.spheres.attributes().find_texts(name);
+  std::vector<std::string> all;
+  for (std::int64_t id = 0; column != nullptr && id < file.spheres.size(); ++id)
+    all.push_back(column->of(static_cast<std::size_t>(id)));
+  return all;
 }
 
 inline std::vector<std::string> number_names(const SphereFile& file) {

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "bihive/bih/reference_builder.h"
 #include "bihive/bih/traversal.h"
+#include "bihive/geometry/scaled_ray.h"
+#include "bihive/geometry/sphere.h"
 #include "bihive/render/query/brute_force.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/queries.h"
@@ -73,6 +76,7 @@ class WideUnderTest {
         check_many(*tree, rays, RayOrder::blocks, truths, "blocks, " + target);
         check_many(*tree, rays, RayOrder::any, truths, "any order, " + target);
         check_single(*tree, rays.part(0, std::min(singles, rays.count)), truths, "single, " + target);
+        check_all_hits(*tree, rays, truths, "all hits, " + target);
         if (testing::Test::HasFatalFailure()) break;
       }
       if (testing::Test::HasFatalFailure()) break;
@@ -118,6 +122,50 @@ class WideUnderTest {
           << where(tree, rays, static_cast<std::int64_t>(i), form);
       ASSERT_EQ(int{hidden[i]}, truths[i].found() ? 1 : 0) << where(tree, rays, static_cast<std::int64_t>(i), form);
     }
+  }
+
+  // The first of all hits is the closest one; for as many rays as brute force can answer, all of them are compared. A
+  // ray may hit every sphere, so there are fewer rays among many spheres.
+  void check_all_hits(const WideTree& tree, const RaySpan& all_rays, const std::vector<Hit>& truths,
+                      const std::string& form) {
+    constexpr std::int64_t kMostTests = 200000, kMostHits = 300000, kLeastRays = 16;
+    const std::int64_t at_most = std::max(kLeastRays, kMostHits / std::max<std::int64_t>(1, spheres_.size()));
+    const RaySpan rays = all_rays.part(0, std::min(at_most, all_rays.count));
+    std::vector<RayHit> hits{{-1, 0, 0}};  // is overwritten
+    all_hits(tree, rays, hits);
+    const std::int64_t whole = kMostTests / std::max<std::int64_t>(1, spheres_.size());
+    std::size_t next = 0;
+    for (std::int64_t i = 0; i < rays.count; ++i) {
+      const std::size_t first = next;
+      while (next < hits.size() && hits[next].ray == i) ++next;
+      const Hit& truth = truths[static_cast<std::size_t>(i)];
+      ASSERT_EQ(next > first, truth.found()) << where(tree, rays, i, form);
+      if (truth.found()) {
+        ASSERT_TRUE(same_bits({hits[first].t, hits[first].sphere_id}, truth)) << where(tree, rays, i, form);
+      }
+      if (i >= whole) continue;
+      std::vector<Hit> expected = every_hit(rays.at(i));
+      ASSERT_EQ(next - first, expected.size()) << where(tree, rays, i, form);
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        ASSERT_TRUE(same_bits({hits[first + k].t, hits[first + k].sphere_id}, expected[k]))
+            << where(tree, rays, i, form);
+    }
+    ASSERT_EQ(next, hits.size()) << form << ", " << name_;
+    queries_ += rays.count;
+  }
+
+  // By brute force, in order.
+  std::vector<Hit> every_hit(const Ray& ray) const {
+    std::vector<Hit> hits;
+    if (!is_valid(ray)) return hits;
+    const ScaledRay scaled(ray, spheres_);
+    for (std::int64_t id = 0; id < spheres_.size(); ++id) {
+      const Hit hit{sphere_hit(scaled, spheres_.stored_centre(id), spheres_.stored_radius(id)), id};
+      if (hit.t < std::numeric_limits<double>::infinity()) hits.push_back(hit);
+    }
+    std::sort(hits.begin(), hits.end(),
+              [](const Hit& a, const Hit& b) { return a.t != b.t ? a.t < b.t : a.sphere_id < b.sphere_id; });
+    return hits;
   }
 
   void check_single(const WideTree& tree, const RaySpan& rays, const std::vector<Hit>& truths,

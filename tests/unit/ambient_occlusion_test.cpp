@@ -42,6 +42,22 @@ TEST(DirectionSets, spread_evenly_over_the_sphere) {
   }
 }
 
+// So one of them is in front of every surface.
+TEST(DirectionSets, two_directions_are_opposite) {
+  const DirectionSets faint(32, 16);
+  const DirectionSets of_picture(2, 16);
+  Vec3d squares;
+  for (int i = 0; i < faint.count(); ++i) {
+    const std::vector<Vec3f>& set = faint.of_sample(i, kFaintLevels - 1);
+    ASSERT_EQ(set.size(), 2u);
+    EXPECT_EQ(set[1], -set[0]);
+    EXPECT_EQ(set, of_picture.of_sample(i));
+    const Vec3d d = to_double(set[0]);
+    squares = squares + Vec3d{d.x * d.x, d.y * d.y, d.z * d.z};
+  }
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(squares[axis] / faint.count(), 1.0 / 3, 0.05);
+}
+
 // A floor at y = 0 and spheres above it.
 struct Floor {
   Scene scene;

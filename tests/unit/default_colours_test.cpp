@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-constexpr const char* kPoints = "x,y,z,r\n0,0,-2,1\n1,0,0,1\n2,0,6,1\n";
+constexpr const char* kPlainPoints = "x,y,z,r\n0,0,-2,1\n1,0,0,1\n2,0,6,1\n";
 
 Scene loaded(const std::string& text, const std::string& name, const Style* style) {
   Result<LoadedScene> made = load_scene(text, name, {}, LooksOfFile::apply, style);
@@ -24,7 +24,7 @@ TEST(DefaultColours, points_without_kind_are_coloured_by_z) {
   for (const std::string& name : style_names()) {
     const Result<Style> style = style_named(name);
     ASSERT_TRUE(style.ok());
-    const Scene scene = loaded(kPoints, "a.csv", &*style);
+    const Scene scene = loaded(kPlainPoints, "a.csv", &*style);
     const std::vector<Vec3f>& colours = scene.spheres.attributes().colour;
     if (name == "plain" || name == "density") {
       EXPECT_TRUE(colours.empty());
@@ -38,7 +38,7 @@ TEST(DefaultColours, points_without_kind_are_coloured_by_z) {
     ASSERT_EQ(scene.coloured_by.size(), 1u);
     EXPECT_EQ(scene.coloured_by[0].attribute, "z");
   }
-  EXPECT_TRUE(loaded(kPoints, "a.csv", nullptr).spheres.attributes().colour.empty());
+  EXPECT_TRUE(loaded(kPlainPoints, "a.csv", nullptr).spheres.attributes().colour.empty());
 }
 
 TEST(DefaultColours, elements_types_and_own_colours_go_first) {
@@ -59,7 +59,7 @@ TEST(DefaultColours, a_style_may_take_another_attribute_or_none) {
   ASSERT_TRUE(style.ok()) << style.error().to_string();
   const Scene charged = loaded("x,y,z,r,charge\n0,0,0,1,-1\n1,0,5,1,1\n", "a.csv", &*style);
   EXPECT_EQ(charged.spheres.attributes().colour.at(1), map_colour(ColourMap::magma, 1, Transfer::srgb));
-  EXPECT_TRUE(loaded(kPoints, "a.csv", &*style).spheres.attributes().colour.empty()) << "there is no charge";
+  EXPECT_TRUE(loaded(kPlainPoints, "a.csv", &*style).spheres.attributes().colour.empty()) << "there is no charge";
 }
 
 // A PDB file of `atoms` carbon atoms, of which the first ones have chain A.

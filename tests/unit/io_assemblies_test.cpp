@@ -11,6 +11,7 @@ namespace {
 using test::error_of;
 using test::numbers_of;
 using test::read_text;
+using test::texts_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -23,14 +24,6 @@ ReadOptions with_assembly(const std::string& id) {
 std::vector<Vec3d> centres(const SphereFile& file) {
   std::vector<Vec3d> all;
   for (std::int64_t id = 0; id < file.spheres.size(); ++id) all.push_back(file.spheres.centre(id));
-  return all;
-}
-
-std::vector<std::string> texts(const SphereFile& file, const char* name) {
-  const NamedTexts* const column = file.spheres.attributes().find_texts(name);
-  std::vector<std::string> all;
-  for (std::int64_t id = 0; column != nullptr && id < file.spheres.size(); ++id)
-    all.push_back(column->of(static_cast<std::size_t>(id)));
   return all;
 }
 
@@ -66,7 +59,7 @@ TEST(Assemblies, a_pdb_file_s_chains_are_copied) {
   EXPECT_EQ(centres(file), (std::vector<Vec3d>{{1, 2, 3}, {2, 2, 3}, {9, -2, 0.5}, {8, -2, 0.5}, {0, 0, 7}}));
   EXPECT_EQ(numbers_of(file, "copy"), (std::vector<double>{1, 1, 2, 2, 3}));
   EXPECT_EQ(numbers_of(file, "b_factor"), (std::vector<double>{20.25, 21.25, 20.25, 21.25, 22.25}));
-  EXPECT_THAT(texts(file, "chain"), ElementsAre("A", "A", "A", "A", "B"));
+  EXPECT_THAT(texts_of(file, "chain"), ElementsAre("A", "A", "A", "A", "B"));
   EXPECT_EQ(file.spheres.attributes().element, (std::vector<std::uint8_t>{7, 6, 7, 6, 8}));
   EXPECT_THAT(file.rules, testing::Contains(HasSubstr("assembly 1: 3 copies")));
   EXPECT_EQ(centres(read_text(kPdb, "a.pdb", with_assembly("2"))), (std::vector<Vec3d>{{0, 0, 107}}));
@@ -107,8 +100,8 @@ TEST(Assemblies, mmcif_uses_label_chains_and_products_of_operators) {
   EXPECT_THAT(file.assemblies, ElementsAre("1", "Z"));
   // First 1 or 2, then a quarter turn about z and a step along z. The likelier alternate alone is copied.
   EXPECT_EQ(centres(file), (std::vector<Vec3d>{{0, 1, 1}, {0, 6, 1}}));
-  EXPECT_THAT(texts(file, "chain"), ElementsAre("X", "X"));
-  EXPECT_TRUE(texts(file, "label_chain").empty());
+  EXPECT_THAT(texts_of(file, "chain"), ElementsAre("X", "X"));
+  EXPECT_TRUE(texts_of(file, "label_chain").empty());
   EXPECT_EQ(centres(read_text(text, "a.cif", with_assembly("Z"))), (std::vector<Vec3d>{{0, 3, 0}}));
   EXPECT_EQ(read_text(text, "a.cif").spheres.size(), 2);
 }

@@ -11,7 +11,7 @@
 namespace bihive {
 namespace {
 
-std::string in_data(const std::string& name) {
+std::string path_of(const std::string& name) {
   return std::string(BIHIVE_SOURCE_DIR) + "/tests/data/io/" + name;
 }
 
@@ -55,9 +55,9 @@ std::vector<ColumnFile> column_files() {
        "8</DataArray></PointData></Piece></PolyData></VTKFile>"},
   };
   for (const char* const name : {"little_f8_C.npy", "big_f4_F.npy", "columns.npz", "places.npz"})
-    files.push_back({name, *read_file(in_data(name))});
+    files.push_back({name, *read_file(path_of(name))});
   for (const char* const name : {"lammps.nc", "water.h5md", "sets.h5:/table", "sets.h5:/run/xyz"})
-    files.push_back({in_data(name), "", true});
+    files.push_back({path_of(name), "", true});
   return files;
 }
 

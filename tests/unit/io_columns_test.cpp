@@ -23,7 +23,7 @@ std::string fault_of(const std::string& bytes, const std::string& name, const Co
   return file ? "no error" : file.error().to_string();
 }
 
-const NamedNumbers* numbers_of(const SphereFile& file, const std::string& name) {
+const NamedNumbers* numbers_called(const SphereFile& file, const std::string& name) {
   for (const NamedNumbers& column : file.spheres.attributes().numbers)
     if (column.name == name) return &column;
   return nullptr;
@@ -45,10 +45,10 @@ TEST(ChosenColumns, CsvByName) {
   EXPECT_EQ(file->spheres.centre(1), (Vec3d{4, 5, 6}));
   EXPECT_EQ(file->spheres.radius(0), 0.25);
   // The column that is called x is one of any numbers now; a part that is none renames.
-  ASSERT_NE(numbers_of(*file, "x"), nullptr);
-  EXPECT_EQ(numbers_of(*file, "x")->values, (std::vector<double>{9, 8}));
-  ASSERT_NE(numbers_of(*file, "weight"), nullptr);
-  EXPECT_EQ(numbers_of(*file, "mass"), nullptr);
+  ASSERT_NE(numbers_called(*file, "x"), nullptr);
+  EXPECT_EQ(numbers_called(*file, "x")->values, (std::vector<double>{9, 8}));
+  ASSERT_NE(numbers_called(*file, "weight"), nullptr);
+  EXPECT_EQ(numbers_called(*file, "mass"), nullptr);
   // The header has no y: without the ending the columns alone say that it is a table.
   EXPECT_TRUE(read_with("px,py,pz\n1,2,3\n", "table", {{"x", "px"}, {"y", "py"}, {"z", "pz"}}).ok());
 }
@@ -59,7 +59,7 @@ TEST(ChosenColumns, CsvByPlace) {
   ASSERT_TRUE(plain.ok()) << plain.error().to_string();
   EXPECT_EQ(plain->spheres.centre(0), (Vec3d{1, 2, 3}));
   EXPECT_EQ(plain->spheres.radius(1), 0.25);
-  ASSERT_NE(numbers_of(*plain, "column_6"), nullptr);
+  ASSERT_NE(numbers_called(*plain, "column_6"), nullptr);
   // A name goes before a place.
   const Result<SphereFile> named = read_with("2,1,y,z\n10,20,3,4\n", "a.csv", {{"x", "2"}});
   EXPECT_FALSE(named.ok());  // the first line holds numbers, so it is no header

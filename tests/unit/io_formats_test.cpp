@@ -22,7 +22,7 @@ using ::testing::SizeIs;
 
 const std::string kTop = BIHIVE_SOURCE_DIR "/";
 
-std::string text_of(const std::string& name) {
+std::string text_in(const std::string& name) {
   std::ifstream file(kTop + name, std::ios::binary);
   EXPECT_TRUE(file) << name;
   return {std::istreambuf_iterator<char>(file), {}};
@@ -54,7 +54,7 @@ std::vector<std::string> all_endings() {
 // The text between "<!-- NAME -->" and "<!-- /NAME -->" of a page is `wanted`.
 void expect_block(const std::string& page, const std::string& name, const std::string& wanted) {
   const std::string begin = "<!-- " + name + " -->", end = "<!-- /" + name + " -->";
-  std::string text = text_of(page);
+  std::string text = text_in(page);
   const std::size_t first = text.find(begin), last = text.find(end);
   ASSERT_TRUE(first != std::string::npos && last != std::string::npos && first < last) << page << ": " << begin;
   const std::size_t from = first + begin.size();
@@ -151,7 +151,7 @@ TEST(FormatPages, AreOfTheseFormats) {
                    those(Format::kColumns) + ".\n- Files of which each rank reads its own part (" +
                    "[many_machines.md](many_machines.md)): " + those(Format::kParts) + ".\n");
   expect_block("README.md", "formats", names_of_formats(FormatsThat::hold_spheres));
-  const std::string schema = text_of("docs/scene.schema.json"), page = text_of("docs/formats.md");
+  const std::string schema = text_in("docs/scene.schema.json"), page = text_in("docs/formats.md");
   for (const TrajectoryFormat* format : trajectory_formats()) {
     EXPECT_THAT(page, HasSubstr("\n| " + split(format->name)[0] + " ["));
     EXPECT_THAT(schema, HasSubstr(split(format->name)[0]));
@@ -163,7 +163,7 @@ TEST(FormatPages, TheBrowserKnowsTrajectories) {
   std::string endings;
   for (const TrajectoryFormat* format : trajectory_formats())
     for (const std::string& ending : split(format->files)) endings += (endings.empty() ? "" : "|") + ending.substr(1);
-  EXPECT_THAT(text_of("web/src/sources.ts"), HasSubstr("/\\.(" + endings + ")$/i"));
+  EXPECT_THAT(text_in("web/src/sources.ts"), HasSubstr("/\\.(" + endings + ")$/i"));
 }
 
 }  // namespace

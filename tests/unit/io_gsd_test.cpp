@@ -1,6 +1,8 @@
 // GSD files that python3-gsd wrote (tests/data/io/trajectories/make_water), and damaged ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bihive/base/write_file.h"
 #include "support/read_text.h"
 
@@ -122,6 +124,31 @@ TEST(Gsd, FrameZeroCountsForAsManyParticles) {
   GsdWriter wrong;
   wrong.add<float>(0, "particles/N", kSingle, 1, {-1});
   EXPECT_NE(error_of(wrong.bytes(), "p.gsd").find("is no number of particles"), std::string::npos);
+}
+
+TEST(Gsd, StatesBonds) {
+  constexpr std::uint8_t kWord = 3, kSingle = 9;
+  GsdWriter writer;
+  writer.add<std::uint32_t>(0, "particles/N", kWord, 1, {3});
+  writer.add<float>(0, "particles/position", kSingle, 3, {1, 0, 0, 2, 0, 0, 3, 0, 0});
+  writer.add<std::uint32_t>(0, "bonds/N", kWord, 1, {2});
+  writer.add<std::uint32_t>(0, "bonds/group", kWord, 2, {2, 1, 0, 1});
+  writer.add<float>(1, "particles/position", kSingle, 3, {4, 0, 0, 5, 0, 0, 6, 0, 0});
+  writer.add<float>(2, "particles/position", kSingle, 3, {4, 0, 0, 5, 0, 0, 6, 0, 0});
+  writer.add<std::uint32_t>(2, "bonds/N", kWord, 1, {1});
+  writer.add<std::uint32_t>(2, "bonds/group", kWord, 2, {0, 9});
+  writer.add<std::uint32_t>(3, "bonds/N", kWord, 1, {0});
+  for (const std::int64_t frame : {0, 1}) {
+    const StatedBonds bonds = read_text(writer.bytes(), "p.gsd", at_frame(frame)).spheres.attributes().bonds;
+    EXPECT_TRUE(bonds.are_all);
+    EXPECT_EQ(bonds.list, (std::vector<StatedBond>{{0, 1, BondOrder::unknown}, {1, 2, BondOrder::unknown}}));
+  }
+  const SphereFile wrong = read_text(writer.bytes(), "p.gsd", at_frame(2));
+  EXPECT_TRUE(wrong.spheres.attributes().bonds.empty());
+  EXPECT_TRUE(std::any_of(wrong.warnings.begin(), wrong.warnings.end(), [](const std::string& warning) {
+    return warning.find("its bonds are left out") != std::string::npos;
+  }));
+  EXPECT_TRUE(read_text(writer.bytes(), "p.gsd", at_frame(3)).spheres.attributes().bonds.empty());
 }
 
 TEST(Gsd, CutAndDamagedFilesAreRefusedOrRead) {

@@ -14,6 +14,7 @@ using test::at_frame;
 using test::error_of;
 using test::numbers_of;
 using test::read_text;
+using test::with;
 using namespace std::string_literals;
 
 const std::string kHeader =
@@ -32,11 +33,6 @@ const std::string kText = kHeader +
                           "1 2 3 16711935 0.5 0.25 0 0\n"
                           "nan nan nan 0 0 0 0 0\n"
                           "-1 -2 -3.5 255 7 8 0 0\n";
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  return text.replace(text.find(from), from.size(), to);
-}
 
 template <class T>
 std::string bytes(std::initializer_list<T> values) {

@@ -13,9 +13,10 @@ using test::at_frame;
 using test::error_of;
 using test::numbers_of;
 using test::read_text;
+using test::texts_of;
 
 // One ATOM line in the format's columns. `name` has its four columns, `element` its two.
-struct Atom {
+struct AtomLine {
   double x = 0;
   std::string name = " CA ", alternate = " ", chain = " A", residue = "   1", insertion = " ", element = " C";
   double occupancy = 1;
@@ -30,7 +31,7 @@ struct Atom {
   }
 };
 
-std::vector<double> xs(const SphereFile& file) {
+std::vector<double> xs_in(const SphereFile& file) {
   std::vector<double> x;
   for (std::int64_t id = 0; id < file.spheres.size(); ++id) x.push_back(file.spheres.centre(id).x);
   return x;
@@ -72,7 +73,7 @@ TEST(Pdb, TakesPlaceElementOccupancyAndBFactor) {
 }
 
 TEST(Pdb, NamesStayInStepWithAlternateLocations) {
-  Atom lost, kept, other;
+  AtomLine lost, kept, other;
   lost.alternate = "A";
   lost.occupancy = 0.25;
   kept.alternate = "B";
@@ -97,7 +98,7 @@ TEST(Pdb, NamesStayInStepWithAlternateLocations) {
 TEST(Pdb, KeepsFileOrderThoughChainsAndResiduesAreInterleaved) {
   std::string text;
   for (int i = 0; i < 9; ++i) {
-    Atom atom;
+    AtomLine atom;
     atom.x = i;
     atom.chain = i % 3 == 0 ? " A" : i % 3 == 1 ? " B" : "  ";
     atom.residue = i % 2 ? "   7" : "   3";
@@ -105,14 +106,14 @@ TEST(Pdb, KeepsFileOrderThoughChainsAndResiduesAreInterleaved) {
     text += atom.line();
     if (i == 4) text += "TER\n";
   }
-  EXPECT_EQ(xs(read_text(text, "a.pdb")), (Xs{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(xs_in(read_text(text, "a.pdb")), (Xs{0, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
 TEST(Pdb, TakesTheLikeliestOfAlternateLocationsAndOfEqualOnesTheFirst) {
   std::string text;
   const auto add = [&text](double x, const char* name, const char* mark, double occupancy, const char* residue = "   1",
                            const char* insertion = " ", const char* chain = " A") {
-    Atom atom;
+    AtomLine atom;
     atom.x = x;
     atom.name = name;
     atom.alternate = mark;
@@ -133,7 +134,7 @@ TEST(Pdb, TakesTheLikeliestOfAlternateLocationsAndOfEqualOnesTheFirst) {
   add(8, " CA ", "B", 0.1, "   1", " ", " B");  // stays: another chain
   add(9, " N  ", " ", 1);                       // stays: no mark, with any name
   const SphereFile file = read_text(text, "a.pdb");
-  EXPECT_EQ(xs(file), (Xs{0, 2, 3, 6, 7, 8, 9}));
+  EXPECT_EQ(xs_in(file), (Xs{0, 2, 3, 6, 7, 8, 9}));
   EXPECT_EQ(numbers_of(file, "occupancy"), (std::vector<double>{1, 0.5, 0.6, 0.1, 0.1, 0.1, 1}));
   EXPECT_EQ(file.spheres.attributes().element.size(), 7u);
   EXPECT_EQ(file.rules[1], "alternate locations: the highest occupancy, of equal ones the first; 3 atoms left out");
@@ -143,20 +144,20 @@ TEST(Pdb, TakesARepeatedMarkForAnotherSite) {
   // A simulation uses residue numbers again and again, so the same names come again.
   std::string text;
   for (int i = 0; i < 4; ++i) {
-    Atom atom;
+    AtomLine atom;
     atom.x = i;
     atom.alternate = i % 2 ? "B" : "A";
     atom.occupancy = i == 1 ? 0.9 : 0.5;
     text += atom.line();
   }
-  EXPECT_EQ(xs(read_text(text, "a.pdb")), (Xs{1, 2}));
+  EXPECT_EQ(xs_in(read_text(text, "a.pdb")), (Xs{1, 2}));
 }
 
 TEST(Pdb, TakesHybrid36Numbers) {
   std::string text;
   for (const auto& [serial, residue] :
        {std::pair{"99999", "9999"}, {"A0000", "A000"}, {"zzzzz", "zzzz"}, {"*****", "****"}}) {
-    Atom atom;
+    AtomLine atom;
     atom.x = static_cast<double>(text.size());
     atom.serial = serial;
     atom.residue = residue;
@@ -172,7 +173,7 @@ TEST(Pdb, GuessesTheElementFromTheNameWhereColumnsAreShort) {
                                                {"1C4A", 6}, {" Q  ", 0},  {" DT ", 1}, {"O5' ", 8},  {"HB1 ", 1},
                                                {"OD1 ", 8}, {"QQ  ", 0},  {"    ", 0}, {"  Ag", 47}, {"NA1B", 7}};
   for (const auto& [name, number] : cases) {
-    Atom atom;
+    AtomLine atom;
     atom.name = name;
     atom.component = "LIG";
     const SphereFile file = read_text(atom.line().substr(0, 66) + "\n", "a.pdb");
@@ -187,7 +188,7 @@ std::vector<int> elements_of(const std::vector<std::array<std::string, 2>>& atom
   std::string text;
   int number = 0;
   for (const auto& [name, component] : atoms) {
-    Atom atom;
+    AtomLine atom;
     atom.x = ++number;
     atom.name = name;
     atom.component = component;
@@ -242,7 +243,7 @@ TEST(Pdb, SeesThatNamesDoNotKeepToTheirColumns) {
   // and an atom alone in its residue may be a metal.
   std::string text;
   const auto add = [&text](const char* name, const char* component, const char* residue) {
-    Atom atom;
+    AtomLine atom;
     atom.x = static_cast<double>(text.size());
     atom.name = name;
     atom.component = component;
@@ -260,7 +261,7 @@ TEST(Pdb, SeesThatNamesDoNotKeepToTheirColumns) {
 TEST(Pdb, WarnsWhereColumnsAndNamesContradict) {
   std::string text;
   for (const char* element : {" C", "CA", "CA"}) {
-    Atom atom;
+    AtomLine atom;
     atom.x = static_cast<double>(text.size());
     atom.element = element;
     text += atom.line();
@@ -275,7 +276,7 @@ TEST(Pdb, WarnsWhereColumnsAndNamesContradict) {
 }
 
 TEST(Pdb, ALineCutInItsCoordinatesIsAnErrorAndOneWithoutEndAWarning) {
-  Atom atom;
+  AtomLine atom;
   atom.x = 12.75;
   const std::string line = atom.line().substr(0, 80), whole = line + "\n";
   for (std::size_t length = 0; length < 54; ++length) {
@@ -299,7 +300,7 @@ TEST(Pdb, KeepsOneOfSeveralResiduesAtOnePlaceAsAWhole) {
   // Marks A and B are serine, C is threonine: the likeliest is C, though its CB is the least likely of the CBs.
   std::string text;
   const auto add = [&text](double x, const char* name, const char* component, const char* mark, double occupancy) {
-    Atom atom;
+    AtomLine atom;
     atom.x = x;
     atom.name = name;
     atom.component = component;
@@ -316,7 +317,7 @@ TEST(Pdb, KeepsOneOfSeveralResiduesAtOnePlaceAsAWhole) {
   add(6, " OG ", "SER", "A", 0.3);
   add(7, " OG1", "THR", "C", 0.4);
   const SphereFile file = read_text(text, "a.pdb");
-  EXPECT_EQ(xs(file), (Xs{2, 5, 7}));
+  EXPECT_EQ(xs_in(file), (Xs{2, 5, 7}));
   EXPECT_EQ(file.rules[2], "residues of several names at one place: the likeliest as a whole; 1 residue");
 
   // Two names with one mark are no alternatives: a number was used again.
@@ -324,11 +325,11 @@ TEST(Pdb, KeepsOneOfSeveralResiduesAtOnePlaceAsAWhole) {
   add(0, " N  ", "SER", "A", 0.3);
   add(1, " CA ", "THR", "A", 0.4);
   add(2, " CB ", "THR", "B", 0.4);
-  EXPECT_EQ(xs(read_text(text, "a.pdb")), (Xs{0, 1, 2}));
+  EXPECT_EQ(xs_in(read_text(text, "a.pdb")), (Xs{0, 1, 2}));
 }
 
 TEST(Pdb, TakesElementsInAnyCaseAndGuessesTheRadiusOfUnknownOnes) {
-  Atom calcium, unknown, deuterium;
+  AtomLine calcium, unknown, deuterium;
   calcium.element = "Ca";
   unknown.element = " X";
   deuterium.element = " D";
@@ -344,25 +345,25 @@ TEST(Pdb, TakesElementsInAnyCaseAndGuessesTheRadiusOfUnknownOnes) {
 
 TEST(Pdb, TakesTheModelAskedFor) {
   const auto atom = [](double x) {
-    Atom a;
+    AtomLine a;
     a.x = x;
     return a.line();
   };
   const std::string models = "MODEL        1\n" + atom(1) + atom(2) + "ENDMDL\nMODEL        2\n" + atom(3) +
                              "ENDMDL\nMODEL        1\n" + atom(4) + "ENDMDL\nEND\n";
   EXPECT_EQ(read_text(models, "a.pdb").frames, 3);
-  EXPECT_EQ(xs(read_text(models, "a.pdb")), (Xs{1, 2}));
-  EXPECT_EQ(xs(read_text(models, "a.pdb", at_frame(1))), (Xs{3}));
-  EXPECT_EQ(xs(read_text(models, "a.pdb", at_frame(2))), (Xs{4}));
+  EXPECT_EQ(xs_in(read_text(models, "a.pdb")), (Xs{1, 2}));
+  EXPECT_EQ(xs_in(read_text(models, "a.pdb", at_frame(1))), (Xs{3}));
+  EXPECT_EQ(xs_in(read_text(models, "a.pdb", at_frame(2))), (Xs{4}));
   EXPECT_EQ(error_of(models, "a.pdb", at_frame(3)),
             "a.pdb: there is no frame 3: the file has 3 (0 to 2); choose one with frame, counting from 0");
   const std::string ends = atom(1) + "END\n" + atom(2) + "ENDMDL\n" + atom(3) + "ENDMDL\n";
-  EXPECT_EQ(xs(read_text(ends, "a.pdb", at_frame(2))), (Xs{3}));
+  EXPECT_EQ(xs_in(read_text(ends, "a.pdb", at_frame(2))), (Xs{3}));
 }
 
 TEST(Pdb, NamesLineAndColumnsOfAFault) {
   const auto with = [](std::size_t column, const std::string& text) {
-    std::string line = Atom{}.line();
+    std::string line = AtomLine{}.line();
     return "REMARK\n" + line.replace(column - 1, text.size(), text);
   };
   EXPECT_EQ(error_of(with(31, "     nan"), "a.pdb"), "a.pdb:2:31: x is not finite: 'nan'");
@@ -380,27 +381,21 @@ TEST(Pdb, NamesLineAndColumnsOfAFault) {
 }
 
 TEST(Pdb, WarnsOfAnUnreadableOccupancyOrBFactor) {
-  std::string line = Atom{}.line();
+  std::string line = AtomLine{}.line();
   line.replace(60, 6, "******");
   const SphereFile file = read_text("REMARK\n" + line, "a.pdb");
   EXPECT_TRUE(std::isnan(numbers_of(file, "b_factor")[0]));
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_EQ(file.warnings[0], "a.pdb:2: 1 occupancies or B factors are no numbers and are taken as unknown");
-  const SphereFile bare = read_text(Atom{}.line().substr(0, 54) + "\n", "a.pdb");
+  const SphereFile bare = read_text(AtomLine{}.line().substr(0, 54) + "\n", "a.pdb");
   EXPECT_EQ(numbers_of(bare, "occupancy"), (std::vector<double>{1}));
 }
 
-std::vector<std::string> texts(const SphereFile& file, const char* name) {
-  std::vector<std::string> all;
-  for (std::int64_t id = 0; id < file.spheres.size(); ++id)
-    all.push_back(file.spheres.attributes().find_texts(name)->of(id));
-  return all;
-}
 using Texts = std::vector<std::string>;
 
 TEST(Pdb, ResidueNamesMayHaveFourLetters) {
   const auto atom = [](const std::string& columns_18_to_22) {
-    Atom made;
+    AtomLine made;
     made.component = columns_18_to_22.substr(0, 3);
     made.chain = columns_18_to_22.substr(3);
     return made.line();
@@ -409,13 +404,13 @@ TEST(Pdb, ResidueNamesMayHaveFourLetters) {
   const SphereFile file = read_text(
       atom("POPC ") + atom("POPCM") + atom("TIP3W") + atom("TIP3 ") + atom("NALA ") + atom("ALA A") + atom("NA   "),
       "a.pdb");
-  EXPECT_EQ(texts(file, "resname"), (Texts{"POPC", "POPC", "TIP3", "TIP3", "NALA", "ALA", "NA"}));
-  EXPECT_EQ(texts(file, "chain"), (Texts{"", "M", "W", "", "", "A", ""}));
+  EXPECT_EQ(texts_of(file, "resname"), (Texts{"POPC", "POPC", "TIP3", "TIP3", "NALA", "ALA", "NA"}));
+  EXPECT_EQ(texts_of(file, "chain"), (Texts{"", "M", "W", "", "", "A", ""}));
 
   // Chains of two letters: a residue of three letters that is known shows them, also for unknown ones after it.
   const SphereFile two = read_text(atom("ALAAB") + atom("LIGAB") + atom("HOHAC"), "a.pdb");
-  EXPECT_EQ(texts(two, "resname"), (Texts{"ALA", "LIG", "HOH"}));
-  EXPECT_EQ(texts(two, "chain"), (Texts{"AB", "AB", "AC"}));
+  EXPECT_EQ(texts_of(two, "resname"), (Texts{"ALA", "LIG", "HOH"}));
+  EXPECT_EQ(texts_of(two, "chain"), (Texts{"AB", "AB", "AC"}));
 }
 
 TEST(Pdb, LargeNumbersShiftTheColumns) {
@@ -433,7 +428,7 @@ TEST(Pdb, LargeNumbersShiftTheColumns) {
   EXPECT_EQ(numbers_of(file, "resid"), (std::vector<double>{9999, 10000, 9999, 123456}));
   EXPECT_EQ(numbers_of(file, "serial"), (std::vector<double>{99999, 99999, 100000, 1000000}));
   EXPECT_EQ(numbers_of(file, "occupancy"), std::vector<double>(4, 0.5));
-  EXPECT_EQ(texts(file, "chain"), Texts(4, "A"));
+  EXPECT_EQ(texts_of(file, "chain"), Texts(4, "A"));
   EXPECT_EQ(file.spheres.attributes().element, std::vector<std::uint8_t>(4, 8));
   ASSERT_EQ(file.warnings.size(), 1u);
   EXPECT_EQ(file.warnings[0].rfind("a.pdb:2: 3 atoms have a number with more digits than its columns hold", 0), 0u)
@@ -441,7 +436,7 @@ TEST(Pdb, LargeNumbersShiftTheColumns) {
   // The same under a name that says nothing is no PQR.
   EXPECT_EQ(read_text(line("99999", "10000"), "a").format, "PDB");
   // A digit as insertion code shifts nothing.
-  EXPECT_EQ(numbers_of(read_text(Atom{1, " CA ", " ", " A", "  10", "1"}.line(), "a.pdb"), "resid"),
+  EXPECT_EQ(numbers_of(read_text(AtomLine{1, " CA ", " ", " A", "  10", "1"}.line(), "a.pdb"), "resid"),
             (std::vector<double>{10}));
 }
 

@@ -15,6 +15,7 @@ using test::at_frame;
 using test::error_of;
 using test::numbers_of;
 using test::read_text;
+using test::with;
 using namespace std::string_literals;
 
 const std::string kPoints =
@@ -40,11 +41,6 @@ const std::string kPoints =
     "1 2 3 1 0 0 2 5 6 0.5 0.25\n"
     "-1 -2 -3.5 0 1 0 0 1.5 7\n"
     "3 0 1 0\n";
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  return text.replace(text.find(from), from.size(), to);
-}
 
 // The same points in binary. Bytes in the order of the format.
 std::string binary(bool big) {

@@ -8,6 +8,7 @@ namespace {
 using test::at_frame;
 using test::error_of;
 using test::read_text;
+using test::with;
 
 const std::string kDiamond =
     "cubic diamond\n"
@@ -31,11 +32,6 @@ const std::string kRun =
     "Direct configuration=    10\n0.1 0 0\n0.5 0.5 0.5\n"
     "run\n1\n6 0 0\n0 6 0\n0 0 6\nC X\n1 1\n"
     "Direct configuration=    20\n0.5 0 0\n0.5 0.5 0.5\n\n";
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  return text.replace(text.find(from), from.size(), to);
-}
 
 TEST(Poscar, TakesDirectPlacesAndTheCell) {
   const SphereFile file = read_text(kDiamond, "POSCAR");

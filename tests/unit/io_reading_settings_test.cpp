@@ -18,7 +18,8 @@ TEST(ReadingSettings, EveryRowIsTakenAndReported) {
                                                                {"no_periodic", ""},
                                                                {"unwrap", ""},
                                                                {"cell_origin", "1,2,3"},
-                                                               {"cell_vectors", "1,0,0,0,2,0,0,0,3"}};
+                                                               {"cell_vectors", "1,0,0,0,2,0,0,0,3"},
+                                                               {"exposed_area", "1.4"}};
   GivenReading given;
   for (const auto& [id, text] : texts) EXPECT_TRUE(given.take(id, text).ok()) << id;
   EXPECT_EQ(given.all().size() + 3, reading_settings().size());  // all but wrap, wrap_molecules and periodic
@@ -27,7 +28,7 @@ TEST(ReadingSettings, EveryRowIsTakenAndReported) {
   EXPECT_EQ(
       report,
       "0.5 2.0 3 \"a.xtc\" 5 true \"1\" {\"r\":\"5\",\"x\":\"px\"} [2,3,1] [[1.0,0.0,0.0],[0.0,2.0,0.0],[0.0,0.0,3.0]] "
-      "[1.0,2.0,3.0] false \"unwrap\" ");
+      "[1.0,2.0,3.0] false \"unwrap\" 1.4 ");
   EXPECT_EQ(given.options().wrapping, Wrapping::unwrap);
   EXPECT_EQ(given.options().replicate, (std::array<std::int32_t, 3>{2, 3, 1}));
 }

@@ -12,6 +12,7 @@ using test::at_frame;
 using test::error_of;
 using test::numbers_of;
 using test::read_text;
+using test::with;
 
 const std::string kTwoMolecules =
     "acetate\n"
@@ -68,11 +69,6 @@ const std::string kMol2 =
     " 1\n"
     "@<TRIPOS>ATOM\n"
     "1 O 7 8 9 O.3\n";
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  return text.replace(text.find(from), from.size(), to);
-}
 
 TEST(Sdf, TakesFixedColumns) {
   const SphereFile file = read_text(kTwoMolecules, "a.sdf");

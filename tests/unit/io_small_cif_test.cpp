@@ -11,6 +11,7 @@ using test::at_frame;
 using test::error_of;
 using test::numbers_of;
 using test::read_text;
+using test::with;
 
 const std::string kSalt =
     "# salt, with the group by name\n"
@@ -41,11 +42,6 @@ const std::string kListed =
     "loop_\n_symmetry_equiv_pos_as_xyz\n'x, y, z'\n-x,-y,z+1/2\n"
     "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
     "Fe1A 0.125 0.25 -0.25\nCa2 0.001 0 0.5\nOw 0.5 0.5 0.125\n";
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  return text.replace(text.find(from), from.size(), to);
-}
 
 TEST(SmallCif, FillsTheCellByTheGroup) {
   const SphereFile file = read_text(kSalt, "salt.cif");

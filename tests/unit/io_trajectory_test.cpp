@@ -32,16 +32,16 @@ TrajectoryPointer opened(const std::string& path) {
 }
 
 // A file in the test's folder with these bytes.
-class Scratch {
+class ScratchTrajectory {
  public:
-  explicit Scratch(const std::string& bytes, const std::string& ending = "")
+  explicit ScratchTrajectory(const std::string& bytes, const std::string& ending = "")
       : path_(::testing::TempDir() + "bihive_trajectory_test." + std::to_string(getpid()) + ending) {
     // Not write_file(): it waits for the disk, and thousands of files are made.
     std::ofstream file(path_, std::ios::binary);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
     EXPECT_TRUE(file.good());
   }
-  ~Scratch() { std::remove(path_.c_str()); }
+  ~ScratchTrajectory() { std::remove(path_.c_str()); }
   const std::string& path() const { return path_; }
 
  private:
@@ -96,7 +96,7 @@ TEST(Trajectory, cut_files_have_the_frames_before_the_cut) {
     ASSERT_NE(all, nullptr);
     std::int64_t compared = 0;
     for (std::size_t length = 0; length < whole.size(); length += length < 200 ? 1 : 7) {
-      const Scratch cut(whole.substr(0, length));
+      const ScratchTrajectory cut(whole.substr(0, length));
       const Result<TrajectoryPointer> trajectory = open_trajectory(cut.path());
       if (!trajectory) {
         EXPECT_NE(trajectory.error().to_string().find(cut.path()), std::string::npos);
@@ -117,7 +117,7 @@ TEST(Trajectory, damaged_bytes_do_no_harm) {
       for (const unsigned char value : {0x00, 0x7f, 0xff}) {
         std::string bytes = whole;
         bytes[place] = static_cast<char>(value);
-        const Scratch damaged(bytes);
+        const ScratchTrajectory damaged(bytes);
         const Result<TrajectoryPointer> trajectory = open_trajectory(damaged.path());
         if (!trajectory) continue;
         for (std::int64_t i = 0; i < std::min<std::int64_t>(4, (*trajectory)->frame_count()); ++i) {
@@ -148,7 +148,7 @@ TEST(Trajectory, few_atoms_are_not_packed) {
   for (int i = 0; i < 9; ++i) number(0);
   word(2);
   for (const float value : {0.5F, 1.0F, -2.0F, 3.0F, 0.25F, 8.0F}) number(value);
-  const Scratch file(bytes);
+  const ScratchTrajectory file(bytes);
   const TrajectoryPointer trajectory = opened(file.path());
   ASSERT_NE(trajectory, nullptr);
   const Result<TrajectoryFrame> frame = trajectory->read(0);
@@ -191,7 +191,7 @@ TEST(Trajectory, fixed_atoms_of_dcd_stay) {
   word(4);
   for (const float axis : {1.0F, 2.0F, 3.0F}) record({axis, 10 * axis});
   for (const float axis : {4.0F, 5.0F, 6.0F}) record({100 * axis});
-  const Scratch file(bytes);
+  const ScratchTrajectory file(bytes);
   const TrajectoryPointer trajectory = opened(file.path());
   ASSERT_NE(trajectory, nullptr);
   ASSERT_EQ(trajectory->frame_count(), 2);
@@ -257,7 +257,7 @@ struct DcdWriter {
 
 std::array<Vec3d, 3> dcd_cell(std::int32_t version, const std::vector<double>& record) {
   const DcdWriter writer{version};
-  const Scratch file(writer.head(3) + writer.frame(record, 1));
+  const ScratchTrajectory file(writer.head(3) + writer.frame(record, 1));
   const TrajectoryPointer trajectory = opened(file.path());
   const Result<TrajectoryFrame> frame = trajectory->read(0);
   EXPECT_TRUE(frame.ok() && frame->cell) << version;
@@ -282,7 +282,7 @@ TEST(Trajectory, dcd_cells_are_read_by_the_version_of_charmm) {
 TEST(Trajectory, frames_of_dcd_may_lack_the_cell) {
   const DcdWriter writer;
   const std::vector<double> cell{10, 90, 20, 90, 90, 30};
-  const Scratch file(writer.head(3) + writer.frame(cell, 1) + writer.frame({}, 2) + writer.frame(cell, 3));
+  const ScratchTrajectory file(writer.head(3) + writer.frame(cell, 1) + writer.frame({}, 2) + writer.frame(cell, 3));
   const TrajectoryPointer trajectory = opened(file.path());
   ASSERT_EQ(trajectory->frame_count(), 3);
   EXPECT_TRUE(trajectory->warnings().empty());
@@ -291,7 +291,7 @@ TEST(Trajectory, frames_of_dcd_may_lack_the_cell) {
   EXPECT_TRUE(trajectory->read(2)->cell.has_value());
   EXPECT_EQ(trajectory->read(2)->z, (std::vector<double>{23, 24, 25}));
   // As many bytes more than whole frames as two cells: the length alone does not tell.
-  const Scratch none(writer.head(3) + writer.frame({}, 1) + writer.frame({}, 2));
+  const ScratchTrajectory none(writer.head(3) + writer.frame({}, 1) + writer.frame({}, 2));
   EXPECT_EQ(opened(none.path())->frame_count(), 2);
   EXPECT_EQ(opened(none.path())->read(1)->x, (std::vector<double>{2, 3, 4}));
 }
@@ -300,7 +300,7 @@ TEST(Trajectory, lengths_of_dcd_records_may_have_64_bits) {
   for (const bool big_endian : {false, true}) {
     const DcdWriter writer{24, true, big_endian};
     const std::vector<double> cell{10, 90, 20, 90, 90, 30};
-    const Scratch file(writer.head(3) + writer.frame(cell, 1) + writer.frame(cell, 2));
+    const ScratchTrajectory file(writer.head(3) + writer.frame(cell, 1) + writer.frame(cell, 2));
     const TrajectoryPointer trajectory = opened(file.path());
     ASSERT_NE(trajectory, nullptr);
     ASSERT_EQ(trajectory->frame_count(), 2);
@@ -312,8 +312,8 @@ TEST(Trajectory, lengths_of_dcd_records_may_have_64_bits) {
 // No cell is written as zeros; other numbers that make none are told.
 TEST(Trajectory, cells_that_cannot_be_read_are_told) {
   const DcdWriter writer;
-  const Scratch file(writer.head(3) + writer.frame({0, 90, 0, 90, 90, 0}, 1) +
-                     writer.frame({10, 90, 20, 90, 90, 0}, 2));
+  const ScratchTrajectory file(writer.head(3) + writer.frame({0, 90, 0, 90, 90, 0}, 1) +
+                               writer.frame({10, 90, 20, 90, 90, 0}, 2));
   const TrajectoryPointer trajectory = opened(file.path());
   EXPECT_FALSE(trajectory->read(0)->cell.has_value());
   EXPECT_TRUE(trajectory->read(0)->warnings.empty());
@@ -327,7 +327,7 @@ TEST(Trajectory, whole_frames_before_a_damaged_tail_stay) {
   for (const char* name : {"water.trr", "water.xtc", "water.dcd"})
     for (const char byte : {'\0', 'x'}) {
       const std::string whole = *read_file(data(name));
-      const Scratch file(whole + std::string(600, byte));
+      const ScratchTrajectory file(whole + std::string(600, byte));
       const TrajectoryPointer trajectory = opened(file.path());
       ASSERT_NE(trajectory, nullptr) << name;
       EXPECT_EQ(trajectory->frame_count(), 3) << name;
@@ -337,7 +337,7 @@ TEST(Trajectory, whole_frames_before_a_damaged_tail_stay) {
       EXPECT_EQ(trajectory->read(2)->y, opened(data(name))->read(2)->y) << name;
     }
   // Without a whole frame before it is an error.
-  const Scratch file(DcdWriter{}.head(3) + std::string(600, '\0'));
+  const ScratchTrajectory file(DcdWriter{}.head(3) + std::string(600, '\0'));
   const Result<TrajectoryPointer> none = open_trajectory(file.path());
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.error().message.find("another number of atoms than its head says"), std::string::npos);
@@ -365,7 +365,7 @@ TEST(Trajectory, xtc_states_the_length_of_its_table_of_sizes) {
     file.put(static_cast<std::int32_t>(bits.size() / 8));
     for (std::size_t i = 0; i < bits.size(); i += 8)
       file.text += static_cast<char>(std::stoi(bits.substr(i, 8), nullptr, 2));
-    const Scratch scratch(file.text);
+    const ScratchTrajectory scratch(file.text);
     const TrajectoryPointer trajectory = opened(scratch.path());
     ASSERT_NE(trajectory, nullptr);
     const Result<TrajectoryFrame> frame = trajectory->read(0);
@@ -390,7 +390,7 @@ std::string trr_with_velocities() {
 }
 
 TEST(Trajectory, trr_has_velocities_and_forces) {
-  const Scratch file(trr_with_velocities());
+  const ScratchTrajectory file(trr_with_velocities());
   const Result<TrajectoryFrame> frame = opened(file.path())->read(0);
   ASSERT_TRUE(frame.ok());
   EXPECT_EQ(frame->x, (std::vector<double>{0, 30}));
@@ -403,7 +403,7 @@ TEST(Trajectory, trr_has_velocities_and_forces) {
 
 // Velocities of the atoms' file belong to its own time.
 TEST(Trajectory, velocities_are_those_of_the_frame) {
-  const Scratch atoms(
+  const ScratchTrajectory atoms(
       "two\n2\n"
       "    1SOL     OW    1   1.000   2.000   3.000  0.1000  0.2000  0.3000\n"
       "    1SOL    HW1    2   1.500   2.500   3.500  0.4000  0.5000  0.6000\n"
@@ -415,7 +415,7 @@ TEST(Trajectory, velocities_are_those_of_the_frame) {
   ReadOptions options;
   EXPECT_NEAR(test::numbers_of(*read_spheres(atoms.path(), options), "vx")[0], 0.1, 1e-12);
   {
-    const Scratch trr(trr_with_velocities());
+    const ScratchTrajectory trr(trr_with_velocities());
     options.trajectory = trr.path();
     const Result<SphereFile> file = read_spheres(atoms.path(), options);
     ASSERT_TRUE(file.ok()) << file.error().to_string();
@@ -428,7 +428,7 @@ TEST(Trajectory, velocities_are_those_of_the_frame) {
   xtc.put(1995).put(2).put(7).put(1.5F);
   for (int i = 0; i < 9; ++i) xtc.put(0.0F);
   xtc.put(2).put_all(std::vector<float>{1, 2, 3, 4, 5, 6});
-  const Scratch moved(xtc.text);
+  const ScratchTrajectory moved(xtc.text);
   options.trajectory = moved.path();
   const Result<SphereFile> file = read_spheres(atoms.path(), options);
   ASSERT_TRUE(file.ok()) << file.error().to_string();

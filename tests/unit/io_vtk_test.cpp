@@ -13,6 +13,7 @@ using test::error_of;
 using test::number_names;
 using test::numbers_of;
 using test::read_text;
+using test::with;
 
 const std::string kLegacy =
     "# vtk DataFile Version 3.0\n"
@@ -84,11 +85,6 @@ std::string xml_appended(bool raw) {
   put(6U), bytes += std::string("\1\0\0\0\xff\0", 6);
   return xml(kLittle, "appended", " offset=\"0\">", " offset=\"28\">", " offset=\"48\">") +
          "<AppendedData encoding=\"raw\">\n _" + bytes + "\n</AppendedData>\n" + kEnd;
-}
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
-  return text.replace(text.find(from), from.size(), to);
 }
 
 void expect_two_points(const std::string& text, const std::string& name) {

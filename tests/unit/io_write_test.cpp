@@ -16,7 +16,7 @@ using test::numbers_of;
 using test::read_text;
 using testing::HasSubstr;
 
-const char* const kPdb =
+const char* const kPdbText =
     "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 20.25           N  \n"
     "ATOM      2  CA  ALA A   1      12.1     6.2    -6.5    0.50 21.25           C  \n"
     "HETATM    3 ZN    ZN B   2      10.125   0.000   3.000  0.50 15.00          ZN  \n";
@@ -61,7 +61,7 @@ void expect_comes_back(const SphereSet& spheres, const std::string& what) {
 }
 
 TEST(WriteSpheres, AMoleculeComesBack) {
-  expect_comes_back(read_text(kPdb, "a.pdb").spheres, "pdb");
+  expect_comes_back(read_text(kPdbText, "a.pdb").spheres, "pdb");
 }
 
 // Far from 0 a reader counts from an origin, and a decimal that merely rounds to the same binary32 is another place.
@@ -84,7 +84,7 @@ TEST(WriteSpheres, EveryDigitOfFarPlacesIsKept) {
 }
 
 TEST(WriteSpheres, DecimalsAreShort) {
-  EXPECT_EQ(write_spheres(read_text(kPdb, "a.pdb").spheres, SphereFileFormat::csv).bytes,
+  EXPECT_EQ(write_spheres(read_text(kPdbText, "a.pdb").spheres, SphereFileFormat::csv).bytes,
             "element,x,y,z,radius,occupancy,b_factor,resid,serial,record,chain,resname,name\n"
             "N,11.104,6.134,-6.504,1.55,1,20.25,1,1,ATOM,A,ALA,N\n"
             "C,12.1,6.2,-6.5,1.7,0.5,21.25,1,2,ATOM,A,ALA,CA\n"
@@ -92,7 +92,7 @@ TEST(WriteSpheres, DecimalsAreShort) {
 }
 
 TEST(WriteSpheres, EachFormatHasItsLayout) {
-  const SphereSet spheres = read_text(kPdb, "a.pdb").spheres;
+  const SphereSet spheres = read_text(kPdbText, "a.pdb").spheres;
   EXPECT_EQ(write_spheres(spheres, SphereFileFormat::xyz).bytes,
             "3\n\nN 11.104 6.134 -6.504\nC 12.1 6.2 -6.5\nZn 10.125 0 3\n");
   EXPECT_THAT(write_spheres(spheres, SphereFileFormat::extended_xyz).bytes,
@@ -112,7 +112,7 @@ TEST(WriteSpheres, EachFormatHasItsLayout) {
 }
 
 TEST(WriteSpheres, SaysWhatAFormatCannotHold) {
-  const SphereSet spheres = read_text(kPdb, "a.pdb").spheres;
+  const SphereSet spheres = read_text(kPdbText, "a.pdb").spheres;
   EXPECT_THAT(write_spheres(spheres, SphereFileFormat::xyz).left_out[0], HasSubstr("radius, occupancy"));
   EXPECT_THAT(write_spheres(spheres, SphereFileFormat::npy).left_out[0], HasSubstr("one array"));
   EXPECT_EQ(write_spheres(spheres, SphereFileFormat::ply).left_out.size(), 4u) << "four texts";

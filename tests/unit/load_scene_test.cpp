@@ -10,12 +10,13 @@ namespace {
 using testing::HasSubstr;
 
 TEST(BuiltInScene, all_of_them_load) {
-  for (const char* name : kBuiltInScenes) {
+  for (const auto& [name, title, kind] : kBuiltInScenes) {
+    SCOPED_TRACE(title);
     const Result<LoadedScene> loaded = built_in_scene(name);
     ASSERT_TRUE(loaded) << name;
     EXPECT_EQ(loaded->scene.name, name);
     EXPECT_GT(loaded->scene.spheres.size(), 0);
-    const bool of_thesis = std::string(name) != "demo";
+    const bool of_thesis = kind != BuiltInKind::file;
     EXPECT_EQ(loaded->format, of_thesis ? "built-in" : "PDB");
     EXPECT_EQ(loaded->has_camera, of_thesis);
     EXPECT_EQ(loaded->has_lights, of_thesis);

@@ -18,7 +18,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr int kWidth = 120, kHeight = 60;
+constexpr int kPictureWidth = 120, kHeight = 60;
 
 // Two balls that overlap, the right one a little deeper, seen from +z: red left, green right, both of their pure
 // colour, on white. `part` is a, then b.
@@ -34,7 +34,7 @@ Scene two_balls() {
   scene.camera.look_at = {0, 0, 0};
   scene.camera.projection = Projection::orthographic;
   scene.camera.shorter_side = 2.4;
-  scene.picture.width_px = kWidth;
+  scene.picture.width_px = kPictureWidth;
   scene.picture.height_px = kHeight;
   scene.picture.samples_per_pixel = 1;
   return scene;
@@ -62,13 +62,13 @@ Counts counts_of(const Film& film) {
       if (light.x == 0 && light.y == 1) ++counts.green;
       if (light.x != 0 || light.y != 0 || light.z != 0) continue;
       ++counts.black;
-      if (x < kWidth / 2 - 8) ++counts.black_left;
-      if (x >= kWidth / 2 + 8) ++counts.black_right;
+      if (x < kPictureWidth / 2 - 8) ++counts.black_left;
+      if (x >= kPictureWidth / 2 + 8) ++counts.black_right;
     }
   return counts;
 }
 
-void apply(Scene& scene, const std::vector<Look>& looks) {
+void put_looks(Scene& scene, const std::vector<Look>& looks) {
   const auto counts = apply_looks(scene, looks);
   EXPECT_TRUE(counts.ok()) << counts.error().to_string();
 }
@@ -76,7 +76,7 @@ void apply(Scene& scene, const std::vector<Look>& looks) {
 TEST(Outlines, one_ball_has_an_outline_of_its_own) {
   Scene scene = two_balls();
   EXPECT_EQ(counts_of(drawn(scene)).black, 0);
-  apply(scene, {{"part a", {SetOutline{2}}}});
+  put_looks(scene, {{"part a", {SetOutline{2}}}});
   const Counts left = counts_of(drawn(scene));
   EXPECT_GT(left.black_left, 100);
   EXPECT_EQ(left.black_right, 0);
@@ -86,7 +86,7 @@ TEST(Outlines, one_ball_has_an_outline_of_its_own) {
   const Counts both = counts_of(drawn(scene));
   EXPECT_GT(both.black_right, 50);
   EXPECT_GT(both.black_left, both.black_right);
-  apply(scene, {{"part a", {SetOutline{0}}}});
+  put_looks(scene, {{"part a", {SetOutline{0}}}});
   const Counts right = counts_of(drawn(scene));
   EXPECT_EQ(right.black_left, 0);
   EXPECT_EQ(right.black_right, both.black_right);
@@ -94,7 +94,7 @@ TEST(Outlines, one_ball_has_an_outline_of_its_own) {
 
 TEST(Outlines, a_crease_runs_where_groups_meet_alone) {
   Scene scene = two_balls();
-  apply(scene, {{"all", {SetCrease{"part"}}}});
+  put_looks(scene, {{"all", {SetCrease{"part"}}}});
   EXPECT_THAT(scene.spheres.attributes().crease, ElementsAre(1, 2));
   const Film creased = drawn(scene);
   const Counts counts = counts_of(creased);
@@ -102,23 +102,23 @@ TEST(Outlines, a_crease_runs_where_groups_meet_alone) {
   EXPECT_LT(counts.black, 60);
   // It is on the ball in front, beside the other one, and not along the background.
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+    for (int x = 0; x < kPictureWidth; ++x) {
       const bool black = creased.at(x, y) == Vec3f{0, 0, 0};
-      EXPECT_TRUE(!black || std::abs(x - kWidth / 2) < 8) << x << " " << y;
+      EXPECT_TRUE(!black || std::abs(x - kPictureWidth / 2) < 8) << x << " " << y;
     }
 
   // The same group has none. Balls that no crease was asked for are a group of their own.
-  apply(scene, {{"all", {SetCrease{"radius"}}}});
+  put_looks(scene, {{"all", {SetCrease{"radius"}}}});
   EXPECT_EQ(counts_of(drawn(scene)).black, 0);
   scene = two_balls();
-  apply(scene, {{"part b", {SetCrease{"part"}}}});
+  put_looks(scene, {{"part b", {SetCrease{"part"}}}});
   EXPECT_EQ(counts_of(drawn(scene)).black, counts.black);
 }
 
 TEST(Outlines, parts_and_threads_have_the_bits_of_the_whole) {
   Scene scene = two_balls();
   scene.picture.outline = Outline{1, 0.1, {0, 0, 0}};
-  apply(scene, {{"part a", {SetOutline{5}}}, {"all", {SetCrease{"part"}}}});
+  put_looks(scene, {{"part a", {SetOutline{5}}}, {"all", {SetCrease{"part"}}}});
   const Film whole = drawn(scene);
   EXPECT_TRUE(drawn(scene, std::nullopt, 7).radiance == whole.radiance);
   const Tile tile{41, 13, 83, 55};
@@ -129,7 +129,7 @@ TEST(Outlines, parts_and_threads_have_the_bits_of_the_whole) {
 
 // The light that lines take away, as a share of the picture.
 double ink_of(Scene scene, double scale) {
-  scene.picture.width_px = static_cast<int>(kWidth * scale);
+  scene.picture.width_px = static_cast<int>(kPictureWidth * scale);
   scene.picture.height_px = static_cast<int>(kHeight * scale);
   scene.picture.samples_per_pixel = 16;
   const auto light_of = [&scene] {
@@ -191,7 +191,7 @@ TEST(Outlines, numbers_make_groups_too) {
 
 TEST(Outlines, hidden_spheres_take_theirs_along) {
   Scene scene = two_balls();
-  apply(scene, {{"part b", {SetOutline{3}, SetCrease{"part"}}}, {"part a", {SetShown{false}}}});
+  put_looks(scene, {{"part b", {SetOutline{3}, SetCrease{"part"}}}, {"part a", {SetShown{false}}}});
   EXPECT_THAT(scene.spheres.attributes().outline_px, ElementsAre(3));
   EXPECT_THAT(scene.spheres.attributes().crease, ElementsAre(2));
 }

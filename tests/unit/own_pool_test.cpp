@@ -1,5 +1,6 @@
 // The own pool, which builds without oneTBB use: calls within calls create no thread.
 // ctest: threads
+// ctest: alone
 #define bihive bihive_own_pool  // tests/CMakeLists.txt compiles it under this name
 #include "bihive/base/parallel.h"
 #undef bihive

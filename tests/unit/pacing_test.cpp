@@ -12,7 +12,7 @@
 namespace bihive {
 namespace {
 
-constexpr double kBudgetMs = 16;
+constexpr double kFrameMs = 16;
 
 std::int64_t pixels_at(int width, int height, int divisor) {
   return std::int64_t{divided(width, divisor)} * divided(height, divisor);
@@ -42,8 +42,8 @@ TEST(DivisorFor, the_finest_that_keeps_to_the_budget) {
 
 TEST(DivisorFor, is_no_coarser_than_what_every_picture_takes_makes_sense) {
   // 60 ms for any picture: 40 x 23 pixels would be no faster than 160 x 90.
-  EXPECT_LE(divisor_for(640, 360, cost_of(60, 3e-3), kBudgetMs), 4);
-  EXPECT_EQ(divisor_for(640, 360, cost_of(60, 1), kBudgetMs), kCoarsestDivisor);
+  EXPECT_LE(divisor_for(640, 360, cost_of(60, 3e-3), kFrameMs), 4);
+  EXPECT_EQ(divisor_for(640, 360, cost_of(60, 1), kFrameMs), kCoarsestDivisor);
 }
 
 TEST(Divided, leaves_no_pixel_out) {
@@ -128,17 +128,17 @@ int divisor_after_turning(int width, int height, double budget_ms, const TrueMs&
 
 TEST(Pacing, a_slow_start_or_small_pictures_that_are_dear_do_not_keep_it_coarse) {
   // Figures measured with drivers on the CPU: 640 x 360 in 141 ms.
-  EXPECT_LE(divisor_after_turning(640, 360, kBudgetMs, [](double pixels) { return 1 + 6e-4 * pixels; }), 4);
+  EXPECT_LE(divisor_after_turning(640, 360, kFrameMs, [](double pixels) { return 1 + 6e-4 * pixels; }), 4);
   EXPECT_LE(divisor_after_turning(640, 360, 25, [](double pixels) { return 1 + 6e-4 * pixels; }), 3);
   // Pictures of a few tiles use one thread of two.
   const auto tiles = [](double pixels) { return 1 + 6e-4 * pixels * (pixels < 8000 ? 1.8 : 1); };
-  EXPECT_LE(divisor_after_turning(932, 800, kBudgetMs, tiles), 6);
+  EXPECT_LE(divisor_after_turning(932, 800, kFrameMs, tiles), 6);
   // A driver in another process, behind a slow connection.
   EXPECT_LE(divisor_after_turning(640, 360, 25, [](double pixels) { return 40 + 1e-3 * pixels; }), 4);
   // If there is time for every pixel, every pixel is drawn.
-  EXPECT_EQ(divisor_after_turning(640, 360, kBudgetMs, [](double pixels) { return 0.3 + 3e-5 * pixels; }), 1);
+  EXPECT_EQ(divisor_after_turning(640, 360, kFrameMs, [](double pixels) { return 0.3 + 3e-5 * pixels; }), 1);
   // And slow pictures stay coarse.
-  EXPECT_EQ(divisor_after_turning(640, 360, kBudgetMs, [](double pixels) { return 1 + 1 * pixels; }), kCoarsestDivisor);
+  EXPECT_EQ(divisor_after_turning(640, 360, kFrameMs, [](double pixels) { return 1 + 1 * pixels; }), kCoarsestDivisor);
 }
 
 TEST(FrameRate, of_the_last_second_that_moved) {

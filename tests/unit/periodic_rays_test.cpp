@@ -16,7 +16,7 @@
 namespace bihive {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 using test::PeriodicSet;
 
@@ -35,7 +35,7 @@ std::vector<RayHit> all_hits_of(const PeriodicSet& set, const ScaledRay& scaled,
   for (std::int64_t id = 0; id < spheres.size(); ++id)
     test::for_each_shift(spheres, reach, [&](Vec3d shift) {
       const double t = sphere_hit(scaled, spheres.stored_centre(id) + shift, spheres.stored_radius(id));
-      if (t < kInf) hits.push_back({number, t, id});
+      if (t < kUnbounded) hits.push_back({number, t, id});
     });
   std::sort(hits.begin(), hits.end(),
             [](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : a.sphere_id < b.sphere_id; });
@@ -97,7 +97,7 @@ TEST(PeriodicRays, AgreeWithAllImages) {
           EXPECT_EQ(hits[at++].sphere_id, hit.sphere_id);
         }
         const auto k = static_cast<std::size_t>(i);
-        EXPECT_EQ(t[k], expected.empty() ? kInf : expected[0].t);
+        EXPECT_EQ(t[k], expected.empty() ? kUnbounded : expected[0].t);
         EXPECT_EQ(ids[k], expected.empty() ? kNothing : expected[0].sphere_id);
         EXPECT_EQ(hidden[k], expected.empty() ? 0 : 1);
         found += static_cast<std::int64_t>(expected.size());
@@ -120,7 +120,7 @@ TEST(PeriodicRays, FarImagesAreAsExact) {
   ray.t_min = 900;
   const Hit hit = closest_hit_of(set, ray);
   ScaledRay scaled(ray, set.spheres.scale());
-  double expected = kInf;
+  double expected = kUnbounded;
   for (int i = -400; i < 200; ++i)
     for (int j = -110; j < 10; ++j)
       for (const std::int64_t id : {0, 1}) {
@@ -225,7 +225,7 @@ TEST(PeriodicRays, ThoseWithoutAnEndAreTold) {
   rays.t_max = {3, 1e9};
   EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), 1);
   rays.t_max = {3, 1};
-  rays.t_min = {-kInf, 0};
+  rays.t_min = {-kUnbounded, 0};
   EXPECT_EQ(set.images->closest_hits(*set.tree, rays.span(), {t, ids}), 0);
   rays.t_min.clear();
   rays.origin[0] = {1e30F, 0};  // no number tells its cell

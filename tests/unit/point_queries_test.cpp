@@ -22,7 +22,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
 
 std::shared_ptr<const WideTree> tree_of(const std::vector<std::vector<double>>& spheres) {
@@ -39,8 +39,9 @@ TEST(PointQueries, NearestBySurfaceAndByCentre) {
   const auto by_surface = nearest_spheres(*tree, PointSpan::rows(points, 2), 5);
   ASSERT_TRUE(by_surface.ok());
   EXPECT_THAT(by_surface->sphere_id, ElementsAre(0, 1, 2, 3, kNothing, 0, 1, 2, 3, kNothing));
-  EXPECT_THAT(by_surface->distance, ElementsAre(1, 2, 2, 3, kInf, -3, 6, 6, 7, kInf));
-  const auto by_centre = nearest_spheres(*tree, PointSpan::rows(points, 2), 2, kInf, {DistanceTo::centre, nullptr, 1});
+  EXPECT_THAT(by_surface->distance, ElementsAre(1, 2, 2, 3, kEverywhere, -3, 6, 6, 7, kEverywhere));
+  const auto by_centre =
+      nearest_spheres(*tree, PointSpan::rows(points, 2), 2, kEverywhere, {DistanceTo::centre, nullptr, 1});
   EXPECT_THAT(by_centre->sphere_id, ElementsAre(1, 2, 0, 1));
   EXPECT_THAT(by_centre->distance, ElementsAre(3, 3, 1, 7));
   // The limit belongs to the answers that count.
@@ -72,8 +73,8 @@ TEST(PointQueries, ASphereOfEachPointDoesNotCount) {
   PointOptions options;
   options.to = DistanceTo::centre;
   options.exclude = own;
-  EXPECT_THAT(nearest_spheres(*tree, span, 1, kInf, options)->sphere_id, ElementsAre(1, 2, 3));
-  EXPECT_THAT(nearest_spheres(*tree, span, 4, kInf, options)->sphere_id,
+  EXPECT_THAT(nearest_spheres(*tree, span, 1, kEverywhere, options)->sphere_id, ElementsAre(1, 2, 3));
+  EXPECT_THAT(nearest_spheres(*tree, span, 4, kEverywhere, options)->sphere_id,
               ElementsAre(1, 2, 3, kNothing, 2, 0, 3, kNothing, 3, 1, 2, 0));
   const double limits[] = {3, 3, 6};
   const auto near = spheres_within(*tree, span, limits, options);
@@ -84,7 +85,7 @@ TEST(PointQueries, ASphereOfEachPointDoesNotCount) {
   // Together with a mask.
   const std::uint8_t mask[] = {1, 1, 0, 1};
   options.mask = mask;
-  EXPECT_THAT(nearest_spheres(*tree, span, 1, kInf, options)->sphere_id, ElementsAre(1, 0, 3));
+  EXPECT_THAT(nearest_spheres(*tree, span, 1, kEverywhere, options)->sphere_id, ElementsAre(1, 0, 3));
 }
 
 TEST(PointQueries, AMaskHidesSpheresOfAPileToo) {
@@ -96,7 +97,7 @@ TEST(PointQueries, AMaskHidesSpheresOfAPileToo) {
   mask[17] = mask[33] = mask[40] = 1;
   const double point[] = {1, 1, 1};
   const PointOptions options{DistanceTo::surface, mask.data(), 1};
-  EXPECT_THAT(nearest_spheres(*tree, PointSpan::rows(point, 1), 4, kInf, options)->sphere_id,
+  EXPECT_THAT(nearest_spheres(*tree, PointSpan::rows(point, 1), 4, kEverywhere, options)->sphere_id,
               ElementsAre(17, 33, 40, kNothing));
   EXPECT_THAT(spheres_containing(*tree, PointSpan::rows(point, 1), options)->sphere_id, ElementsAre(17, 33));
   EXPECT_EQ(spheres_containing(*tree, PointSpan::rows(point, 1))->sphere_id.size(), 40U);
@@ -116,7 +117,7 @@ TEST(PointQueries, NothingToAskAndNothingToFind) {
 TEST(PointQueries, ErrorsNameThePoint) {
   const auto tree = tree_of({{0, 0, 0, 1}});
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinite[] = {0, 0, 0, 0, kInf, 0}, undefined[] = {nan, 0, 0}, large[] = {0, 0, -1e39},
+  const double infinite[] = {0, 0, 0, 0, kEverywhere, 0}, undefined[] = {nan, 0, 0}, large[] = {0, 0, -1e39},
                fine[] = {0, 0, 0};
   const auto error = [&](const double* points, std::int64_t count) {
     const auto answer = nearest_spheres(*tree, PointSpan::rows(points, count));
@@ -134,7 +135,7 @@ TEST(PointQueries, ErrorsNameThePoint) {
   const double negative = -1;
   EXPECT_EQ(spheres_overlapping(*tree, one, &negative).error().to_string(),
             "point 0: the radius must be finite and not negative but is -1");
-  EXPECT_FALSE(spheres_overlapping(*tree, one, &kInf).ok());
+  EXPECT_FALSE(spheres_overlapping(*tree, one, &kEverywhere).ok());
 }
 
 // Two unit spheres whose centres are 1 apart share a lens: two caps of height 1/2.
@@ -224,7 +225,7 @@ TEST(PointQueries, PairsByCentresAndBySurfaces) {
   const std::uint8_t mask[] = {1, 0, 1, 1};
   EXPECT_EQ(ids_of(*sphere_pairs(*tree, set, 4.5, {DistanceTo::surface, mask, 1})),
             (std::vector<std::array<std::int64_t, 2>>{{0, 2}, {2, 3}}));
-  EXPECT_TRUE(sphere_pairs(*tree, set, -kInf)->first.empty());
+  EXPECT_TRUE(sphere_pairs(*tree, set, -kEverywhere)->first.empty());
   EXPECT_FALSE(sphere_pairs(*tree, set, std::numeric_limits<double>::quiet_NaN()).ok());
 }
 

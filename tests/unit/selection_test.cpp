@@ -21,7 +21,7 @@ const SphereSet& protease() {
 }
 
 // Six spheres on the x axis.
-const SphereSet& table() {
+const SphereSet& atoms_table() {
   static const SphereFile file = test::read_text(
       "x,y,z,r,type,charge,phase,element,odd name\n"
       "0,0,0,1,1,-1,solid,C,5\n"
@@ -44,7 +44,7 @@ Ids ids_in(const SphereSet& spheres, const std::string& expression) {
 }
 
 Ids ids(const std::string& expression) {
-  return ids_in(table(), expression);
+  return ids_in(atoms_table(), expression);
 }
 
 std::size_t count_in_protease(const std::string& expression) {
@@ -151,11 +151,11 @@ TEST(Selection, CalculatesRootsPowersAndMagnitudes) {
   EXPECT_EQ(ids("(charge)^2 = 1"), (Ids{0, 5}));
   EXPECT_EQ(ids("charge^0.5 >= 0"), (Ids{2, 4, 5})) << "there is no root of a negative number";
   EXPECT_EQ(ids("x^0 = 1"), ids("all"));
-  EXPECT_FALSE(select_spheres(table(), "2^x^2 > 1").ok()) << "which way is ambiguous";
+  EXPECT_FALSE(select_spheres(atoms_table(), "2^x^2 > 1").ok()) << "which way is ambiguous";
   const SphereFile moving = test::read_text("x,y,z,r,vx,vy,vz\n0,0,0,1,3,0,4\n1,0,0,1,1,2,2\n", "a.csv");
   EXPECT_EQ(ids_in(moving.spheres, "speed = 5"), (Ids{0}));
   EXPECT_EQ(ids_in(moving.spheres, "speed 3"), (Ids{1}));
-  EXPECT_THAT(error_in(table(), "speed > 1").message, testing::HasSubstr("there is no attribute 'speed'"));
+  EXPECT_THAT(error_in(atoms_table(), "speed > 1").message, testing::HasSubstr("there is no attribute 'speed'"));
 }
 
 TEST(Selection, TakesAllThatAreTheSameAsSome) {
@@ -167,8 +167,8 @@ TEST(Selection, TakesAllThatAreTheSameAsSome) {
   EXPECT_EQ(count_in_protease("byres index 0"), count_in_protease("chain A and resid 1"));
   EXPECT_EQ(count_in_protease("same chain as index 0"), count_in_protease("chain A"));
   EXPECT_GT(count_in_protease("byres within 5 of resname 478"), count_in_protease("within 5 of resname 478"));
-  EXPECT_THAT(error_in(table(), "byres x > 1").message, testing::HasSubstr("has no 'resid'"));
-  EXPECT_THAT(error_in(table(), "same phse as x > 1").to_string(), testing::HasSubstr("did you mean 'phase'"));
+  EXPECT_THAT(error_in(atoms_table(), "byres x > 1").message, testing::HasSubstr("has no 'resid'"));
+  EXPECT_THAT(error_in(atoms_table(), "same phse as x > 1").to_string(), testing::HasSubstr("did you mean 'phase'"));
 }
 
 TEST(Selection, KindsOfResiduesDivideAMolecule) {
@@ -206,8 +206,8 @@ TEST(Selection, ASelectionThatFindsNothingSaysWhatThereIs) {
   EXPECT_EQ(what_there_is(protease(), "chain A and x > 1000"), "") << "no test of values";
   EXPECT_EQ(what_there_is(protease(), "chain A and"), "");
   const std::string phases = "no sphere has phase gas; there are solid, liquid, Solid, 10, C5'";
-  EXPECT_EQ(what_there_is(table(), "phase gas"), phases);
-  SphereSet frame = table();
+  EXPECT_EQ(what_there_is(atoms_table(), "phase gas"), phases);
+  SphereSet frame = atoms_table();
   for (NamedTexts& column : frame.attributes().texts) column.texts.emplace_back("of another frame");
   EXPECT_EQ(what_there_is(frame, "phase gas"), phases);
 }
@@ -306,7 +306,7 @@ TEST(Selection, WithinSeesTheImagesOfEveryCell) {
 }
 
 TEST(Selection, ACellThatIsNoneChangesNothing) {
-  SphereSet spheres = table();
+  SphereSet spheres = atoms_table();
   for (const Cell& cell :
        {Cell{{}, {Vec3d{}, Vec3d{}, Vec3d{}}}, Cell{{}, {Vec3d{5, 0, 0}, Vec3d{10, 0, 0}, Vec3d{}}}}) {
     spheres.cell() = cell;
@@ -351,7 +351,7 @@ TEST(Selection, ErrorsNameThePlaceAndTheRemedy) {
       {"phase \"solid", "7", "a quote that does not close"},
   };
   for (const auto& one : cases) {
-    const Error error = error_in(table(), one.expression);
+    const Error error = error_in(atoms_table(), one.expression);
     EXPECT_THAT(error.to_string(), testing::HasSubstr(one.message)) << one.expression;
     EXPECT_EQ(std::to_string(error.column), one.column) << one.expression << ": " << error.to_string();
     EXPECT_EQ(error.line, 1) << one.expression;
@@ -360,26 +360,28 @@ TEST(Selection, ErrorsNameThePlaceAndTheRemedy) {
 
 TEST(Selection, TheCaretStandsBelowThePlaceInCharacters) {
   const std::string expression = "x > 3 and\n'\xC3\xA4' > 1 and q7 = 2";
-  const Error error = error_in(table(), expression);
+  const Error error = error_in(atoms_table(), expression);
   EXPECT_EQ(error.line, 2);
   EXPECT_EQ(caret_lines(expression, error), "  '\xC3\xA4' > 1 and q7 = 2\n  ^\n");
-  EXPECT_EQ(caret_lines("\xC3\xA4 |", error_in(table(), "\xC3\xA4 |")), "  \xC3\xA4 |\n     ^\n");
+  EXPECT_EQ(caret_lines("\xC3\xA4 |", error_in(atoms_table(), "\xC3\xA4 |")), "  \xC3\xA4 |\n     ^\n");
 }
 
 TEST(Selection, DeepAndLongTextsAreErrors) {
   EXPECT_EQ(ids(std::string(100, '(') + "all" + std::string(100, ')')), ids("all"));
-  EXPECT_THAT(error_in(table(), std::string(101, '(') + "all" + std::string(101, ')')).message,
+  EXPECT_THAT(error_in(atoms_table(), std::string(101, '(') + "all" + std::string(101, ')')).message,
               testing::HasSubstr("at most 100 deep"));
-  EXPECT_EQ(error_in(table(), std::string(101, '(') + "all" + std::string(101, ')')).column, 101);
+  EXPECT_EQ(error_in(atoms_table(), std::string(101, '(') + "all" + std::string(101, ')')).column, 101);
   EXPECT_EQ(ids(std::string(100, '(') + "x" + std::string(100, ')') + " > 1"), ids("x > 1"));
-  EXPECT_EQ(error_in(table(), "all or " + std::string(101, '(') + "x" + std::string(101, ')') + " > 1").column, 108);
+  EXPECT_EQ(error_in(atoms_table(), "all or " + std::string(101, '(') + "x" + std::string(101, ')') + " > 1").column,
+            108);
   // Parentheses in quotes are none, whichever way they open.
   EXPECT_EQ(ids("phase \"" + std::string(101, '(') + "\" or x > 1"), ids("x > 1"));
   const Error deep =
-      error_in(table(), "phase \"" + std::string(30000, ')') + "\" or " + std::string(30000, '(') + "all");
+      error_in(atoms_table(), "phase \"" + std::string(30000, ')') + "\" or " + std::string(30000, '(') + "all");
   EXPECT_THAT(deep.message, testing::HasSubstr("at most 100 deep"));
   EXPECT_EQ(deep.column, 7 + 30000 + 5 + 101);
-  EXPECT_THAT(error_in(table(), std::string(70000, ' ') + "all").message, testing::HasSubstr("at most 65536 bytes"));
+  EXPECT_THAT(error_in(atoms_table(), std::string(70000, ' ') + "all").message,
+              testing::HasSubstr("at most 65536 bytes"));
   EXPECT_EQ(ids(std::string(60000, '!') + "x > 1"), ids("x > 1"));
   EXPECT_EQ(ids(std::string(60001, '!') + "x > 1"), ids("not x > 1"));
   EXPECT_EQ(ids(std::string(60001, '-') + "x < -1"), ids("x > 1"));
@@ -390,7 +392,7 @@ TEST(Selection, DeepAndLongTextsAreErrors) {
   EXPECT_EQ(ids(within), ids("x > 1"));
   for (int i = 0; i < 98; ++i) within = "within 0 of " + within;
   EXPECT_EQ(ids(within), ids("x > 1"));
-  EXPECT_THAT(error_in(table(), "within 0 of " + within).message,
+  EXPECT_THAT(error_in(atoms_table(), "within 0 of " + within).message,
               testing::HasSubstr("at most 100 times 'within', 'same' or 'byres'"));
   std::string many = "x > 1";
   for (int i = 0; i < 3000; ++i) many += " or x > 1";

@@ -14,7 +14,7 @@
 namespace bihive {
 namespace {
 
-ShownFramesPlan small_plan() {
+ShownFramesPlan few_frames() {
   ShownFramesPlan plan;
   plan.scenarios = {1, 3};
   plan.spheres = {64};
@@ -41,7 +41,7 @@ TEST(ShownFrames, AreTheThesis) {
 
 // A screen of 50 frames a second.
 TEST(ShownFrames, CountsWhatIsShownAfterTheWarmUp) {
-  ShownFrames frames(small_plan());
+  ShownFrames frames(few_frames());
   ASSERT_EQ(frames.rates().size(), 2u * 2 * 2);
   double now_ms = 1000;
   int shown = 0;
@@ -59,20 +59,20 @@ TEST(ShownFrames, CountsWhatIsShownAfterTheWarmUp) {
     EXPECT_EQ(rate.frames, 50);
     EXPECT_DOUBLE_EQ(rate.fps(), 50);
   }
-  const auto json = nlohmann::json::parse(frames.json("window", "a device"));
-  EXPECT_EQ(json["complete"], true);
-  EXPECT_EQ(json["by"], "window");
-  ASSERT_EQ(json["configurations"].size(), 8u);
-  EXPECT_TRUE(json["configurations"][0]["max_prims"].is_null());
-  EXPECT_EQ(json["configurations"][3]["max_prims"], 8);
-  EXPECT_EQ(json["configurations"][3]["turning"], true);
-  EXPECT_EQ(json["configurations"][7]["scenario"], 3);
-  EXPECT_EQ(json["configurations"][7]["fps"], 50.0);
+  const auto report = nlohmann::json::parse(frames.json("window", "a device"));
+  EXPECT_EQ(report["complete"], true);
+  EXPECT_EQ(report["by"], "window");
+  ASSERT_EQ(report["configurations"].size(), 8u);
+  EXPECT_TRUE(report["configurations"][0]["max_prims"].is_null());
+  EXPECT_EQ(report["configurations"][3]["max_prims"], 8);
+  EXPECT_EQ(report["configurations"][3]["turning"], true);
+  EXPECT_EQ(report["configurations"][7]["scenario"], 3);
+  EXPECT_EQ(report["configurations"][7]["fps"], 50.0);
 }
 
 // A short measurement warms up no longer than it lasts.
 TEST(ShownFrames, WarmUpInNoLongerThanTheyAreMeasured) {
-  ShownFramesPlan plan = small_plan();
+  ShownFramesPlan plan = few_frames();
   plan.seconds = 0.1;
   ShownFrames frames(plan);
   double now_ms = 1000;
@@ -87,7 +87,7 @@ TEST(ShownFrames, WarmUpInNoLongerThanTheyAreMeasured) {
 
 // At rest every frame is the same picture; turning, they differ; both engines draw the same first picture.
 TEST(ShownFrames, TurnOnceAround) {
-  ShownFrames frames(small_plan());
+  ShownFrames frames(few_frames());
   double now_ms = 0;
   std::map<std::size_t, std::vector<std::uint64_t>> pictures;
   while (!frames.finished()) {
@@ -111,7 +111,7 @@ TEST(ShownFrames, TurnOnceAround) {
 }
 
 TEST(ShownFrames, EndWithAnError) {
-  ShownFramesPlan plan = small_plan();
+  ShownFramesPlan plan = few_frames();
   plan.scenarios = {4};
   ShownFrames frames(plan);
   EXPECT_FALSE(frames.draw());

@@ -15,9 +15,9 @@ using ::testing::HasSubstr;
 
 // The program does not ask the schema about its own texts.
 TEST(Style, TheProgramsOwnTextsFitTheSchema) {
-  for (const std::string_view text :
-       {style_text_default(), style_text_plain(), style_text_illustrative(), style_text_studio(), style_text_glossy(),
-        style_text_flat(), style_text_xray(), style_text_density()}) {
+  for (const std::string_view text : {style_text_default(), style_text_plain(), style_text_illustrative(),
+                                      style_text_studio(), style_text_glossy(), style_text_flat(), style_text_xray(),
+                                      style_text_density(), style_text_ball_and_stick(), style_text_licorice()}) {
     const Result<Style> style = parse_style(text, "own");
     EXPECT_TRUE(style.ok()) << style.error().to_string();
   }

@@ -9,7 +9,7 @@
 namespace bihive {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 360;  // 20 x 12 blocks
+constexpr int kPixelsAcross = 640, kPixelsDown = 360;  // 20 x 12 blocks
 constexpr double kWantedMs = 6;
 
 struct Pass {
@@ -24,7 +24,7 @@ Pass third_pass(double fixed_ms, double block_ms) {
   for (int i = 0; i < 3; ++i) {
     pass = {};
     int pixels = 0;
-    for (walk.restart(kWidth, kHeight); !walk.at_end();) {
+    for (walk.restart(kPixelsAcross, kPixelsDown); !walk.at_end();) {
       const Tile tile = walk.next(kWantedMs);
       const int area = (tile.x1 - tile.x0) * (tile.y1 - tile.y0);
       pixels += area;
@@ -34,7 +34,7 @@ Pass third_pass(double fixed_ms, double block_ms) {
       pass.ms += ms;
       pass.longest_ms = std::max(pass.longest_ms, ms);
     }
-    EXPECT_EQ(pixels, kWidth * kHeight) << "every pixel once";
+    EXPECT_EQ(pixels, kPixelsAcross * kPixelsDown) << "every pixel once";
   }
   return pass;
 }

@@ -19,7 +19,7 @@
 namespace bihive {
 namespace {
 
-struct Ball {
+struct Layer {
   Vec3d centre;
   double radius = 1;
   float opacity = 1;
@@ -27,17 +27,17 @@ struct Ball {
 };
 
 // Seen from (0, 0, 100) towards -z. Each sphere shows its colour as it is.
-Scene scene_of(const std::vector<Ball>& balls) {
+Scene scene_of_layers(const std::vector<Layer>& balls) {
   std::vector<double> x, y, z, r;
   Scene scene;
-  for (const Ball& ball : balls) {
+  for (const Layer& ball : balls) {
     x.push_back(ball.centre.x);
     y.push_back(ball.centre.y);
     z.push_back(ball.centre.z);
     r.push_back(ball.radius);
   }
   scene.spheres = SphereSet::from_world(x, y, z, r).value();
-  for (const Ball& ball : balls) {
+  for (const Layer& ball : balls) {
     scene.spheres.attributes().colour.push_back(ball.glow);
     scene.spheres.attributes().opacity.push_back(ball.opacity);
   }
@@ -70,7 +70,7 @@ constexpr Vec3f kAhead{0, 0, -1};
 constexpr double kStep = 2e-7;
 
 TEST(Transparency, a_sphere_takes_its_opacity_once) {
-  Scene scene = scene_of({{{0, 0, 0}, 1, 0.5F}});
+  Scene scene = scene_of_layers({{{0, 0, 0}, 1, 0.5F}});
   EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead).x, 0.5);
   // The old rule: both surfaces, and a generation each.
   scene.picture.opacity_rule = OpacityRule::each_surface;
@@ -79,16 +79,16 @@ TEST(Transparency, a_sphere_takes_its_opacity_once) {
 }
 
 TEST(Transparency, layers_need_no_recursion) {
-  std::vector<Ball> balls;
+  std::vector<Layer> balls;
   for (int i = 0; i < 10; ++i) balls.push_back({{0, 0, -3.0 * i}, 1, 0.25F});
-  EXPECT_EQ(light_along(scene_of(balls), {0, 0, 10}, kAhead).x, std::pow(0.75, 10));
+  EXPECT_EQ(light_along(scene_of_layers(balls), {0, 0, 10}, kAhead).x, std::pow(0.75, 10));
 }
 
 TEST(Transparency, of_one_opacity_the_first_surface_alone_counts) {
-  std::vector<Ball> balls;
+  std::vector<Layer> balls;
   for (int i = 0; i < 10; ++i) balls.push_back({{0, 0, -3.0 * i}, 1, 0.25F, {1, 0, 0}});
   balls.push_back({{0, 0, -100}, 1, 1, {0, 0, 1}});
-  Scene scene = scene_of(balls);
+  Scene scene = scene_of_layers(balls);
   scene.picture.opacity_rule = OpacityRule::first;
   EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead), (Vec3d{0.25, 0, 0.75}));
   // A ray that starts inside of one leaves it, and that is all.
@@ -104,7 +104,7 @@ TEST(Transparency, of_one_opacity_the_first_surface_alone_counts) {
 }
 
 TEST(Transparency, light_is_weakened_by_the_first_surface_alone_and_not_tinted) {
-  Scene scene = scene_of({{{0, 0, 0}, 1, 0.25F, {1, 0, 0}}, {{0, 0, -3}, 1, 0.25F, {1, 0, 0}}});
+  Scene scene = scene_of_layers({{{0, 0, 0}, 1, 0.25F, {1, 0, 0}}, {{0, 0, -3}, 1, 0.25F, {1, 0, 0}}});
   Ray ray;
   ray.origin = {0, 0, 10};
   ray.direction = kAhead;
@@ -129,7 +129,7 @@ TEST(Transparency, faint_rays_are_not_followed) {
   // A mirror before the eye shows the white background, and nothing else is seen.
   for (const double reflective : {kFaintestRay, std::nextafter(kFaintestRay, 0.0)}) {
     for (const float opacity_of_another : {0.5F, 1.0F}) {
-      Scene scene = scene_of({{{0, 0, 0}, 1}, {{50, 0, 0}, 1, opacity_of_another}});
+      Scene scene = scene_of_layers({{{0, 0, 0}, 1}, {{50, 0, 0}, 1, opacity_of_another}});
       scene.materials[0].ambient = 0;
       scene.materials[0].reflective = reflective;
       const bool followed = reflective == kFaintestRay || opacity_of_another == 1;
@@ -138,23 +138,51 @@ TEST(Transparency, faint_rays_are_not_followed) {
   }
 }
 
+TEST(Transparency, layers_that_hardly_any_light_reaches_are_not_shaded) {
+  // A black layer lets the smallest share through at which the next one is shaded, or less. The third gets too little
+  // in both cases, and the background is seen in full.
+  std::vector<std::int64_t> rays;
+  for (const double share : {kFaintestRay, kFaintestRay / 2}) {
+    Scene scene = scene_of_layers({{{0, 0, 0}, 1, static_cast<float>(1 - share), {0, 0, 0}},
+                                   {{0, 0, -3}, 1, 0.5F, {1, 1, 1}},
+                                   {{0, 0, -6}, 1, 0.5F, {1, 1, 1}}});
+    const AmbientRays ambient({10, 32}, 1);
+    const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
+    const Transparency parts = parts_of(scene);
+    Integrator integrator(scene, tracer, 1, true, &ambient, nullptr, &parts);
+    Ray ray;
+    ray.origin = {0, 0, 10};
+    ray.direction = kAhead;
+    const double light = integrator.radiance(ray).x;
+    rays.push_back(integrator.rays().ambient);
+    const double of_background = share / 4;
+    if (share < kFaintestRay)
+      EXPECT_EQ(light, of_background);
+    else
+      EXPECT_GT(light, of_background);
+  }
+  EXPECT_EQ(rays[0], rays[1] + 1);
+}
+
 TEST(Transparency, faint_layers_ask_fewer_directions_and_points) {
   EXPECT_EQ(faint_level(1), 0);
-  EXPECT_EQ(faint_level(std::nextafter(0.5, 1.0)), 0);
-  EXPECT_EQ(faint_level(0.5), 1);
+  EXPECT_EQ(faint_level(0.71), 0);
+  EXPECT_EQ(faint_level(0.7), 1);
+  EXPECT_EQ(faint_level(0.36), 1);
   EXPECT_EQ(faint_level(0.125), 3);
   EXPECT_EQ(faint_level(0), kFaintLevels - 1);
   EXPECT_EQ(used_at_level(64, 2, kFewestDirections), 16);
   EXPECT_EQ(used_at_level(64, 5, kFewestDirections), kFewestDirections);
   EXPECT_EQ(used_at_level(12, 4, kFewestLightPoints), kFewestLightPoints);
-  EXPECT_EQ(used_at_level(3, 4, kFewestDirections), 3);
+  EXPECT_EQ(used_at_level(3, 4, kFewestDirections), 2);
+  EXPECT_EQ(used_at_level(1, 4, kFewestDirections), 1);
 
   // One layer of opacity 1/4 before nothing: a quarter of the rays of an opaque sphere.
   const AmbientRays ambient({10, 256}, 1);
   const LightPointSets points(256, 1);
   RenderCounts rays[2];
   for (const float opacity : {0.25F, 1.0F}) {
-    Scene scene = scene_of({{{0, 0, 0}, 1, opacity}, {{50, 0, 0}, 1, 0.5F}});
+    Scene scene = scene_of_layers({{{0, 0, 0}, 1, opacity}, {{50, 0, 0}, 1, 0.5F}});
     scene.lights = {{{0, 0, 100}, {1, 1, 1}}};
     scene.lights[0].radius = 5;
     const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
@@ -174,10 +202,10 @@ TEST(Transparency, faint_layers_ask_fewer_directions_and_points) {
 
 TEST(Transparency, mirrors_in_layers_send_few_rays) {
   // Sixteen layers, and as many before each mirrored ray: 16 to the power of the generation, if all were followed.
-  std::vector<Ball> balls;
+  std::vector<Layer> balls;
   for (int i = 0; i < 16; ++i) balls.push_back({{0, 0, -3.0 * i}, 1, 0.5F});
   for (int i = 0; i < 16; ++i) balls.push_back({{0, 0, 20 + 3.0 * i}, 1, 0.5F});
-  Scene scene = scene_of(balls);
+  Scene scene = scene_of_layers(balls);
   scene.materials[0].reflective = 0.12;
   const Tracer tracer = Tracer::build(scene.spheres, Engine::wide).value();
   const Transparency parts = parts_of(scene);
@@ -191,8 +219,8 @@ TEST(Transparency, mirrors_in_layers_send_few_rays) {
 }
 
 TEST(Transparency, the_nearest_layer_comes_first) {
-  const Scene scene =
-      scene_of({{{0, 0, -4}, 1, 0.25F, {0, 1, 0}}, {{0, 0, 0}, 1, 0.5F, {1, 0, 0}}, {{0, 0, -8}, 1, 1, {0, 0, 1}}});
+  const Scene scene = scene_of_layers(
+      {{{0, 0, -4}, 1, 0.25F, {0, 1, 0}}, {{0, 0, 0}, 1, 0.5F, {1, 0, 0}}, {{0, 0, -8}, 1, 1, {0, 0, 1}}});
   // What is behind the red layer has the tint (1, 1/2, 1/2), and behind the green one (3/4, 1, 3/4) too.
   const Vec3d light = light_along(scene, {0, 0, 10}, kAhead);
   EXPECT_EQ(light.x, 0.5);
@@ -217,7 +245,7 @@ TEST(Transparency, the_hue_tints_what_gets_through_and_the_share_alone_weakens_i
 
 TEST(Transparency, shadows_and_occlusion_have_the_tint) {
   // The ground under a red sphere of opacity 1/2.
-  Scene scene = scene_of({{{0, 3, 0}, 1, 0.5F, {1, 0, 0}}});
+  Scene scene = scene_of_layers({{{0, 3, 0}, 1, 0.5F, {1, 0, 0}}});
   scene.plane = thesis_plane();
   scene.plane->plane.point = {0, 0, 0};
   scene.plane->checker.reset();
@@ -243,7 +271,7 @@ TEST(Transparency, shadows_and_occlusion_have_the_tint) {
 
 TEST(Transparency, a_mirrored_ray_keeps_the_tint_of_what_it_passed) {
   // A green layer before a mirror that shows the white background.
-  Scene scene = scene_of({{{0, 0, 5}, 1, 0.5F, {0, 1, 0}}, {{0, 0, 0}, 1, 1}});
+  Scene scene = scene_of_layers({{{0, 0, 5}, 1, 0.5F, {0, 1, 0}}, {{0, 0, 0}, 1, 1}});
   scene.materials[0].ambient = 0;
   scene.materials[0].reflective = 0.5;
   scene.camera.eye = {0, 0, 100};
@@ -254,14 +282,14 @@ TEST(Transparency, a_mirrored_ray_keeps_the_tint_of_what_it_passed) {
 }
 
 TEST(Transparency, full_and_no_opacity) {
-  EXPECT_EQ(light_along(scene_of({{{0, 0, 0}, 1, 1, {1, 0, 0}}}), {0, 0, 10}, kAhead).y, 0);
-  const Vec3d clear = light_along(scene_of({{{0, 0, 0}, 1, 0, {1, 0, 0}}}), {0, 0, 10}, kAhead);
+  EXPECT_EQ(light_along(scene_of_layers({{{0, 0, 0}, 1, 1, {1, 0, 0}}}), {0, 0, 10}, kAhead).y, 0);
+  const Vec3d clear = light_along(scene_of_layers({{{0, 0, 0}, 1, 0, {1, 0, 0}}}), {0, 0, 10}, kAhead);
   EXPECT_EQ(clear.x, 1);
   EXPECT_EQ(clear.y, 1);
 }
 
 TEST(Transparency, a_ray_that_starts_inside_crosses_the_sphere_on_its_way_out) {
-  const Scene scene = scene_of({{{0, 0, 0}, 2, 0.5F}, {{0, 0, -1}, 0.5, 1, {1, 1, 1}}});
+  const Scene scene = scene_of_layers({{{0, 0, 0}, 2, 0.5F}, {{0, 0, -1}, 0.5, 1, {1, 1, 1}}});
   EXPECT_EQ(light_along(scene, {0, 0, 0}, {0, 0, 1}).x, 0.5);
   EXPECT_EQ(light_along(scene, {0, 0, 0}, kAhead).x, 1) << "it ends inside, too";
 }
@@ -269,7 +297,7 @@ TEST(Transparency, a_ray_that_starts_inside_crosses_the_sphere_on_its_way_out) {
 TEST(Transparency, shadows_and_occlusion_are_as_weak_as_the_sphere) {
   // A place under a sphere that hides the light.
   for (const float opacity : {0.0F, 0.25F, 0.5F, 1.0F}) {
-    Scene scene = scene_of({{{0, 3, 0}, 1, opacity}});
+    Scene scene = scene_of_layers({{{0, 3, 0}, 1, opacity}});
     scene.plane = thesis_plane();
     scene.plane->plane.point = {0, 0, 0};
     scene.plane->checker.reset();
@@ -294,7 +322,7 @@ TEST(Transparency, shadows_and_occlusion_are_as_weak_as_the_sphere) {
 }
 
 TEST(Transparency, light_passes_glass_with_its_transmission) {
-  Scene scene = scene_of({{{0, 3, 0}, 1}});
+  Scene scene = scene_of_layers({{{0, 3, 0}, 1}});
   scene.materials[0].transmissive = 0.75;
   scene.materials[0].refraction_index = 1.5;
   scene.plane = thesis_plane();
@@ -310,14 +338,14 @@ TEST(Transparency, light_passes_glass_with_its_transmission) {
 }
 
 TEST(Transparency, nothing_is_divided_where_all_is_opaque) {
-  const Scene scene = scene_of({{{0, 0, 0}}});
+  const Scene scene = scene_of_layers({{{0, 0, 0}}});
   EXPECT_EQ(parts_of(scene).to_eye, nullptr);
   EXPECT_EQ(parts_of(scene).to_light, nullptr);
 }
 
 TEST(Transparency, a_ray_leaves_all_spheres_that_are_equal) {
   // Both are one surface: a ray from the opaque one does not cross the transparent one.
-  const Scene scene = scene_of({{{0, 0, 0}, 1, 1}, {{0, 0, 0}, 1, 0.5F}, {{0, 0, 0}, 1, 1}});
+  const Scene scene = scene_of_layers({{{0, 0, 0}, 1, 1}, {{0, 0, 0}, 1, 0.5F}, {{0, 0, 0}, 1, 1}});
   const Transparency parts = parts_of(scene);
   SplitMix64 random(5);
   for (int i = 0; i < 1000; ++i) {
@@ -447,7 +475,7 @@ TEST(Transparency, crossings_of_many_rays_are_those_of_each) {
 
 TEST(Transparency, a_transparent_picture_shows_what_gets_through) {
   // Two layers before nothing, and one before an opaque sphere.
-  Scene scene = scene_of({{{0, 0, 0}, 50, 0.5F, {1, 0, 0}}, {{0, 0, -200}, 80, 0.5F, {0, 1, 0}}});
+  Scene scene = scene_of_layers({{{0, 0, 0}, 50, 0.5F, {1, 0, 0}}, {{0, 0, -200}, 80, 0.5F, {0, 1, 0}}});
   scene.background = {0.1, 0.2, 0.3};
   scene.camera.fov_deg = 1;
   RenderSettings settings = settings_from(scene.picture);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kNear = 1e-12;
 
-void expect_near(Vec3d a, Vec3d b) {
+void expect_close(Vec3d a, Vec3d b) {
   EXPECT_NEAR(length(a - b), 0, kNear) << a.x << ' ' << a.y << ' ' << a.z;
 }
 
@@ -34,8 +34,8 @@ TEST(Turn, quarters_lead_from_side_to_side) {
   EXPECT_EQ(turned(side_of(ViewFrom::front), {0, 90}).up, side_of(ViewFrom::top).up);
   EXPECT_EQ(turned(side_of(ViewFrom::front), {30, 0}).up, (Vec3d{0, 1, 0}));
   const Side over = turned(side_of(ViewFrom::front), {0, 180});
-  expect_near(over.back, {0, 0, -1});
-  expect_near(over.up, {0, -1, 0});
+  expect_close(over.back, {0, 0, -1});
+  expect_close(over.up, {0, -1, 0});
 }
 
 TEST(Turn, roll_turns_the_picture_counter_clockwise) {
@@ -57,7 +57,7 @@ TEST(Turn, a_camera_keeps_its_distance_and_what_it_looks_at) {
   EXPECT_NEAR(dot(moved.up, moved.eye - moved.look_at), 0, 1e-11);
   // Back again, in the other order.
   const Camera again = turned(turned(turned(moved, {0, 0, -140}), {0, 21}), {-33, 0});
-  expect_near(again.eye, camera.eye);
+  expect_close(again.eye, camera.eye);
 }
 
 }  // namespace

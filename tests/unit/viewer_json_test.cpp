@@ -169,6 +169,7 @@ TEST(ViewerJson, looks_come_back) {
   look.nan_colour = "#112233";
   look.crease = "chain";
   look.floor = "#ff8800";
+  look.floor_up = {0, 0, 2};
   look.rows = {{"chain \"A\"", "colour", "0.1,0.2,0.3"}, {"", "hide", ""}};
   const Result<ViewerLook> back = viewer_look_from_json(viewer_look_to_json(look));
   ASSERT_TRUE(back) << back.error().to_string();
@@ -189,6 +190,8 @@ TEST(ViewerJson, looks_come_back) {
   EXPECT_THAT(look_error(R"({"style": 1})"), HasSubstr("/style: expected a text, found 1"));
   EXPECT_THAT(look_error(R"({"lights": "studio"})"), HasSubstr("/lights: expected a list of texts, found"));
   EXPECT_THAT(look_error(R"({"lights": [1]})"), HasSubstr("/lights: expected a list of texts, found [1]"));
+  EXPECT_THAT(look_error(R"({"floor_up": [1, 2]})"), HasSubstr("/floor_up: expected three numbers, found [1,2]"));
+  EXPECT_THAT(look_error(R"({"floor_up": [0, 0, 0]})"), HasSubstr("/floor_up: expected a direction, or null, found"));
   EXPECT_THAT(look_error(R"({"rows": {}})"), HasSubstr("/rows: expected an array"));
   EXPECT_THAT(look_error(R"({"rows": [{}, 5, {}]})"), HasSubstr("/rows/1: expected an object, found 5"));
   EXPECT_THAT(look_error(R"({"rows": [{"select": null}]})"), HasSubstr("/rows/0/select: expected a text"));

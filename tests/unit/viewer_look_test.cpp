@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
+#include "bihive/scene/bonds.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/floor.h"
@@ -26,11 +28,11 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr int kWidth = 96, kHeight = 64;
+constexpr int kViewWidth = 96, kViewHeight = 64;
 
 constexpr const char* kThree = "x,y,z,r,charge\n0,0,0,1,-1\n2.5,0,0,1,0\n0,2.5,1,1,1\n";
 
-void settle(Viewer& viewer) {
+void settle_look(Viewer& viewer) {
   for (int i = 0; i < 100000; ++i) {
     const Result<FrameReport> report = viewer.frame(20);
     ASSERT_TRUE(report) << report.error().to_string();
@@ -40,7 +42,7 @@ void settle(Viewer& viewer) {
 }
 
 std::uint64_t shown(Viewer& viewer) {
-  settle(viewer);
+  settle_look(viewer);
   return picture_hash(viewer.image());
 }
 
@@ -48,13 +50,20 @@ std::uint64_t shown(Viewer& viewer) {
 std::uint64_t rendered(LoadedScene loaded, const Camera& camera, const std::vector<Look>& looks = {}) {
   Scene& scene = loaded.scene;
   for (const Look& look : looks) loaded.looks.push_back(look);
+  const Sticks sticks = scene.picture.sticks;
+  if (sticks.bonds != Bonds::none) {
+    EXPECT_TRUE(scale_balls(scene, sticks));
+  }
   EXPECT_TRUE(apply_looks(scene, loaded.looks));
+  if (sticks.bonds != Bonds::none) {
+    EXPECT_TRUE(find_bonds(scene, sticks));
+  }
   scene.camera = camera;
   if (!loaded.has_lights) scene.lights = lights_around(loaded.rig, camera);
   RenderSettings settings = settings_from(scene.picture);
-  settings.width_px = kWidth;
-  settings.height_px = kHeight;
-  const Result<Tracer> tracer = Tracer::build(scene.spheres, Engine::wide);
+  settings.width_px = kViewWidth;
+  settings.height_px = kViewHeight;
+  const Result<Tracer> tracer = Tracer::build(scene, Engine::wide);
   const Result<Rendered> picture = render(scene, *tracer, settings);
   return picture_hash(image_from_film(picture->film, View::shaded, scene.picture.transfer));
 }
@@ -70,7 +79,7 @@ Look look_of(const std::string& select, const std::string& action, const std::st
 
 TEST(ViewerLook, every_style_is_the_programs) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   EXPECT_EQ(viewer.look(), ViewerLook{});
   EXPECT_EQ(shown(viewer), rendered(demo_in("default"), viewer.settings().camera)) << "without a choice";
@@ -84,17 +93,72 @@ TEST(ViewerLook, every_style_is_the_programs) {
   }
 
   // Another file keeps the style, from any side.
+  ViewerLook xray;
+  xray.style = "xray";
+  ASSERT_TRUE(viewer.set_look(xray));
   ASSERT_TRUE(viewer.load(kThree, "three.csv"));
-  EXPECT_EQ(viewer.look().style, style_names().back());
+  EXPECT_EQ(viewer.look(), xray);
+  EXPECT_THAT(viewer.facts().warnings, testing::IsEmpty());
   viewer.orbit(20, 10);
-  const Style style = *style_named(style_names().back());
+  const Style style = *style_named("xray");
   EXPECT_EQ(shown(viewer),
             rendered(*load_scene(kThree, "three.csv", {}, LooksOfFile::keep, &style), viewer.settings().camera));
 }
 
+TEST(ViewerLook, sticks_are_picked_as_their_atoms_and_have_no_tree_view) {
+  Viewer viewer;
+  viewer.resize(kViewWidth, kViewHeight);
+  ASSERT_TRUE(viewer.load("2\n\nC 0 0 0\nO 1.4 0 0\n", "two.xyz"));
+  ViewerLook look;
+  look.style = "licorice";
+  ASSERT_TRUE(viewer.set_look(look));
+  ASSERT_EQ(viewer.scene().sticks.size(), 1);
+  settle_look(viewer);
+  std::set<std::int64_t> picked;
+  for (int x = 0; x < kViewWidth; ++x)
+    for (int y = 0; y < kViewHeight; y += 4)
+      if (const auto at = viewer.pick(x + 0.5, y + 0.5); at && *at) picked.insert((*at)->sphere);
+  EXPECT_EQ(picked, (std::set<std::int64_t>{0, 1}));
+  ViewerSettings settings = viewer.settings();
+  settings.view = View::traversal;
+  const Status refused = viewer.set(settings);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("style without bonds"));
+  // A style without bonds has the balls back.
+  ASSERT_TRUE(viewer.set_look({}));
+  EXPECT_TRUE(viewer.scene().sticks.empty());
+}
+
+TEST(ViewerLook, a_style_that_does_not_suit_the_next_file_is_dropped_with_a_warning) {
+  Viewer viewer;
+  viewer.resize(kViewWidth, kViewHeight);
+  ASSERT_TRUE(viewer.load_built_in("demo"));
+  ViewerLook look;
+  look.style = "licorice";
+  ASSERT_TRUE(viewer.set_look(look));
+  const std::int64_t bonds = viewer.scene().sticks.size();
+  EXPECT_GT(bonds, 1000);
+  // Bonds need elements.
+  const Result<SceneFacts> loaded = viewer.load(kThree, "three.csv");
+  ASSERT_TRUE(loaded) << loaded.error().to_string();
+  EXPECT_THAT(loaded->warnings, ElementsAre(HasSubstr("not in the style licorice: bonds are found between atoms of")));
+  EXPECT_EQ(viewer.look(), ViewerLook{});
+  EXPECT_TRUE(viewer.scene().sticks.empty());
+  const Style style = *style_named("default");
+  EXPECT_EQ(shown(viewer),
+            rendered(*load_scene(kThree, "three.csv", {}, LooksOfFile::keep, &style), viewer.settings().camera));
+  // A file that is bad in any style is still refused, and leaves what is shown.
+  EXPECT_FALSE(viewer.load("x,y,z\n1,2\n", "bad.csv"));
+  EXPECT_EQ(viewer.scene().spheres.size(), 3);
+  // Chosen by hand the style is refused, and says why.
+  const auto unknown = viewer.set_look(look);
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().to_string(), HasSubstr("known elements"));
+}
+
 TEST(ViewerLook, what_the_user_changed_stays_when_the_style_changes) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerSettings settings = viewer.settings();
   settings.picture.user.set("recursion", 2);
@@ -108,7 +172,7 @@ TEST(ViewerLook, what_the_user_changed_stays_when_the_style_changes) {
 
 TEST(ViewerLook, rows_are_done_in_order_and_counted) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load(kThree, "three.csv"));
   EXPECT_THAT(viewer.facts().attributes, testing::Contains("charge"));
   EXPECT_TRUE(viewer.facts().takes_style);
@@ -148,7 +212,7 @@ TEST(ViewerLook, rows_are_done_in_order_and_counted) {
 
 TEST(ViewerLook, a_bad_choice_names_its_row_and_changes_nothing) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   EXPECT_FALSE(viewer.set_look({})) << "no scene yet";
   ASSERT_TRUE(viewer.load(kThree, "three.csv"));
   ViewerLook good;
@@ -186,7 +250,7 @@ TEST(ViewerLook, a_scene_file_keeps_what_it_says) {
   const std::string text = R"({"bihive_scene": 2, "background": "black",
     "spheres": [[0, 0, 0, 1], [2, 0, 0, 1]], "looks": [{"select": "index 1", "colour": "red"}]})";
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load(text, "two.json"));
   EXPECT_EQ(shown(viewer), rendered(*load_scene(text, "two.json", {}, LooksOfFile::keep), viewer.settings().camera));
   ViewerLook look;
@@ -208,7 +272,7 @@ TEST(ViewerLook, a_scene_file_keeps_what_it_says) {
 
 TEST(ViewerLook, element_colours_and_background) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   EXPECT_TRUE(viewer.facts().has_elements);
   ViewerLook look;
@@ -223,27 +287,27 @@ TEST(ViewerLook, element_colours_and_background) {
   // Transparent: the saved picture has opacity, the screen shows checks.
   look.background = "none";
   ASSERT_TRUE(viewer.set_look(look));
-  const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, samples_at_rest(viewer.settings()));
+  const Result<PngPixels> saved = viewer.picture(kViewWidth, kViewHeight, samples_at_rest(viewer.settings()));
   ASSERT_TRUE(saved);
   ASSERT_EQ(saved->channels, 4);
   EXPECT_EQ(saved->bytes[3], 0) << "the corner is clear";
-  settle(viewer);
+  settle_look(viewer);
   EXPECT_EQ(viewer.image().rgb[0], 235);
   EXPECT_EQ(viewer.image().rgb[3 * 12], 205);
   ASSERT_TRUE(viewer.set_look({}));
-  EXPECT_EQ(viewer.picture(kWidth, kHeight, 4)->channels, 3);
+  EXPECT_EQ(viewer.picture(kViewWidth, kViewHeight, 4)->channels, 3);
 
   // Views of the tree have no transparent background.
   ASSERT_TRUE(viewer.set_look(look));
   ViewerSettings settings = viewer.settings();
   settings.view = View::tree;
   ASSERT_TRUE(viewer.set(settings));
-  EXPECT_EQ(viewer.picture(kWidth, kHeight, 1)->channels, 3);
+  EXPECT_EQ(viewer.picture(kViewWidth, kViewHeight, 1)->channels, 3);
 }
 
 TEST(ViewerLook, a_moving_picture_with_one_sample_is_still_the_programs_at_rest) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerSettings settings = viewer.settings();
   settings.picture.user.set("samples_per_pixel", 1);
@@ -275,8 +339,8 @@ std::uint64_t demo_with(const Camera& camera, const std::function<void(Scene&, R
   scene.camera = camera;
   scene.lights = lights_around(loaded.rig, camera);
   RenderSettings settings = settings_from(scene.picture);
-  settings.width_px = kWidth;
-  settings.height_px = kHeight;
+  settings.width_px = kViewWidth;
+  settings.height_px = kViewHeight;
   change(scene, settings);
   const Result<Tracer> tracer = Tracer::build(scene.spheres, Engine::wide);
   const Result<Rendered> picture = render(scene, *tracer, settings);
@@ -367,7 +431,7 @@ TEST(ViewerLook, every_effect_is_the_programs) {
        }},
   };
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   const ViewerSettings first = viewer.settings();
   const std::uint64_t plain = shown(viewer);
@@ -382,7 +446,7 @@ TEST(ViewerLook, every_effect_is_the_programs) {
     EXPECT_EQ(hash, demo_with(camera, one.as_rendered)) << one.name;
     EXPECT_NE(hash, plain) << one.name;
     // As a file too.
-    const Result<PngPixels> saved = viewer.picture(kWidth, kHeight, samples_at_rest(viewer.settings()));
+    const Result<PngPixels> saved = viewer.picture(kViewWidth, kViewHeight, samples_at_rest(viewer.settings()));
     ASSERT_TRUE(saved);
     EXPECT_EQ(picture_hash(Image{saved->width, saved->height, saved->bytes}), hash) << one.name;
     viewer.look_from(ViewFrom::front);
@@ -393,25 +457,33 @@ TEST(ViewerLook, every_effect_is_the_programs) {
 
 TEST(ViewerLook, a_floor_lies_below_what_is_left) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   const std::uint64_t plain = shown(viewer);
   const Camera camera = viewer.settings().camera;
-  for (const char* const floor : {"shadow", "#3366cc"}) {
+  const std::optional<Vec3d> blue = *colour_from_text("#3366cc", Transfer::srgb);
+  struct Case {
     ViewerLook look;
-    look.floor = floor;
-    ASSERT_TRUE(viewer.set_look(look));
+    std::optional<Vec3d> colour;
+    Vec3d up;
+  };
+  std::vector<Case> cases(3);
+  cases[0] = {{}, std::nullopt, {0, 1, 0}};
+  cases[0].look.floor = kFloorOfShadows;
+  cases[1] = {{}, blue, {0, 1, 0}};
+  cases[1].look.floor = "#3366cc";
+  cases[2] = {cases[1].look, blue, {0, 0, 1}};
+  cases[2].look.floor_up = {0, 0, 5};
+  std::set<std::uint64_t> hashes{plain};
+  for (const Case& one : cases) {
+    ASSERT_TRUE(viewer.set_look(one.look));
     const std::uint64_t with_floor = shown(viewer);
-    EXPECT_NE(with_floor, plain) << floor;
+    EXPECT_TRUE(hashes.insert(with_floor).second) << one.look.floor;
     EXPECT_EQ(with_floor, demo_with(camera,
                                     [&](Scene& scene, RenderSettings&) {
-                                      const std::optional<Vec3d> colour =
-                                          std::string(floor) == kFloorOfShadows
-                                              ? std::nullopt
-                                              : std::optional(*colour_from_text(floor, Transfer::srgb));
-                                      scene.plane = floor_in(plane_below(scene, {0, 1, 0}), colour, scene);
+                                      scene.plane = floor_in(plane_below(scene, one.up), one.colour, scene);
                                     }))
-        << floor;
+        << one.look.floor;
   }
   ViewerLook bad;
   bad.floor = "shadows";
@@ -432,7 +504,7 @@ TEST(ViewerLook, a_floor_lies_below_what_is_left) {
 
 TEST(ViewerLook, lights_colours_and_creases_of_all_spheres) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerLook look;
   look.lights = {"cloudy", "from:1,0,0:orange:0.5:10"};
@@ -500,7 +572,7 @@ TEST(ViewerLook, lights_colours_and_creases_of_all_spheres) {
 
 TEST(ViewerLook, effects_follow_the_style_unless_they_were_changed) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   EXPECT_TRUE(viewer.settings().picture.result().ambient_occlusion.has_value()) << "of the style default";
   ViewerSettings settings = viewer.settings();
@@ -533,7 +605,7 @@ TEST(ViewerLook, effects_follow_the_style_unless_they_were_changed) {
 
 TEST(ViewerLook, labels_that_a_picture_cannot_have) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewWidth, kViewHeight);
   ASSERT_TRUE(viewer.load_built_in("four-spheres"));
   const std::uint64_t without = shown(viewer);
   ViewerSettings settings = viewer.settings();
@@ -586,11 +658,11 @@ TEST(ViewerLook, labels_are_sharp_in_coarse_pictures) {
     return std::vector<std::uint8_t>(viewer.image().rgb.begin(), viewer.image().rgb.begin() + 400 * 3 * 60);
   };
   const std::vector<std::uint8_t> coarse = top();
-  settle(viewer);
+  settle_look(viewer);
   EXPECT_TRUE(top() == coarse) << "above the molecule there is the title alone";
   settings.picture.user.reset("title");
   ASSERT_TRUE(viewer.set(settings));
-  settle(viewer);
+  settle_look(viewer);
   EXPECT_FALSE(top() == coarse) << "the title was there";
 }
 

@@ -8,11 +8,14 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "bihive/render/renderer.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/load_scene.h"
+#include "bihive/scene/wide_angle.h"
 
 namespace bihive {
 namespace {
@@ -255,7 +258,8 @@ TEST(Viewer, a_camera_that_shows_all_does_so_at_any_size) {
   viewer.look_from(ViewFrom::left);
   const Vec3d square = viewer.settings().camera.eye;
   viewer.resize(100, 300);
-  const Camera expected = frame_spheres(viewer.scene().spheres, ViewFrom::left, 30, 100, 300);
+  const Camera expected =
+      frame_spheres(viewer.scene().spheres, ViewFrom::left, angle_for_picture(30, 100, 300), 100, 300);
   EXPECT_EQ(viewer.settings().camera.eye, expected.eye);
   EXPECT_NE(expected.eye, square);
 
@@ -528,6 +532,43 @@ TEST(Viewer, a_long_set_stays_in_the_picture_while_it_turns) {
   }
 }
 
+TEST(Viewer, a_cut_that_moves_leaves_the_camera) {
+  Viewer viewer;
+  viewer.resize(300, 200);
+  ASSERT_TRUE(viewer.load_built_in("demo", {}, {}));
+  const Camera whole = viewer.settings().camera;
+  const auto cut = [&](std::optional<double> above_middle) {
+    ViewerLook look = viewer.look();
+    look.rows.clear();
+    if (above_middle)
+      look.rows.push_back({"", "clip", "plane:0,1,0," + std::to_string(whole.look_at.y + *above_middle)});
+    ASSERT_TRUE(viewer.set_look(look));
+  };
+  const auto same_camera = [&](const Camera& camera) { return viewer.settings().camera == camera; };
+
+  // Before anything is seen it frames what is left, as the program does.
+  cut(0);
+  const Camera half = viewer.settings().camera;
+  EXPECT_FALSE(same_camera(whole));
+  ASSERT_TRUE(viewer.frame(kBudgetMs));
+  cut(std::nullopt);
+  EXPECT_GT(length(viewer.settings().camera.eye - half.look_at), length(half.eye - half.look_at)) << "shows all of it";
+
+  viewer.home();
+  EXPECT_TRUE(same_camera(whole));
+  for (const double above_middle : {5, -5, 0}) {
+    cut(std::nullopt);
+    EXPECT_TRUE(same_camera(whole));
+    cut(above_middle);
+    EXPECT_TRUE(same_camera(whole)) << above_middle;
+  }
+  viewer.resize(301, 200);
+  EXPECT_TRUE(same_camera(whole));
+  viewer.home();
+  viewer.resize(300, 200);
+  EXPECT_TRUE(same_camera(half)) << "what is left, where the user asks for it";
+}
+
 TEST(Viewer, copies_stay_in_the_picture_while_they_turn) {
   for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
     Viewer viewer;
@@ -558,6 +599,34 @@ TEST(Viewer, home_brings_the_scenes_own_angle_back) {
   EXPECT_EQ(viewer.settings().camera.fov_deg, own);
   viewer.look_from(ViewFrom::left);
   EXPECT_EQ(viewer.settings().camera.fov_deg, own);
+}
+
+TEST(Viewer, a_wide_picture_has_the_programs_angle_unless_the_user_chose_one) {
+  const auto angle_of = [](const Viewer& viewer) { return viewer.settings().camera.fov_deg; };
+  Viewer viewer;
+  viewer.resize(900, 300);
+  ASSERT_TRUE(viewer.load_built_in("demo", {}, {}));
+  const double wide = angle_for_picture(30, 900, 300);
+  EXPECT_LT(wide, 22);
+  EXPECT_EQ(angle_of(viewer), wide);
+  viewer.resize(300, 300);
+  EXPECT_EQ(angle_of(viewer), 30);
+  viewer.resize(300, 900);
+  EXPECT_EQ(angle_of(viewer), wide);
+  ViewerLook look = viewer.look();
+  look.style = "studio";
+  ASSERT_TRUE(viewer.set_look(look));
+  EXPECT_EQ(angle_of(viewer), wide);
+  viewer.home();
+  EXPECT_EQ(angle_of(viewer), wide);
+
+  ViewerSettings settings = viewer.settings();
+  settings.camera.fov_deg = 40;
+  ASSERT_TRUE(viewer.set(settings));
+  viewer.resize(900, 300);
+  EXPECT_EQ(angle_of(viewer), 40);
+  viewer.look_from(ViewFrom::left);
+  EXPECT_EQ(angle_of(viewer), 40);
 }
 
 TEST(Viewer, another_angle_still_shows_the_whole_set) {

@@ -6,8 +6,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/parallel.h"
@@ -18,8 +23,12 @@
 #include "bihive/render/tracer.h"
 #include "bihive/scene/generators.h"
 #include "bihive/scene/load_scene.h"
+#include "bihive/wide/periodic_images.h"
+#include "bihive/wide/point_queries.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/wide_builder.h"
+#include "support/effort.h"
+#include "support/thread_time.h"
 
 namespace bihive {
 namespace {
@@ -169,6 +178,158 @@ TEST(Watch, a_cancelled_builder_builds_the_same_trees_afterwards) {
     EXPECT_EQ(closest_hit(*built, ray).sphere_id, closest_hit(*fresh, ray).sphere_id);
     EXPECT_EQ(closest_hit(*built, ray).t, closest_hit(*fresh, ray).t);
   }
+}
+
+// Every query of rays and points that can be watched, on one thread or two.
+struct Queries {
+  SphereSet set;
+  std::shared_ptr<const WideTree> tree;
+  std::optional<PeriodicImages> images;
+  RayBatch rays;
+  std::vector<double> points;
+
+  explicit Queries(std::size_t spheres, std::size_t count) : set(many_spheres(spheres)) {
+    set.cell() = Cell{{}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}};
+    tree = WideBuilder().build(set).value();
+    images = PeriodicImages::of(set).value();
+    rays.resize(static_cast<std::int64_t>(count));
+    rays.t_max.assign(count, 1.5);
+    std::uint32_t state = 7;
+    const auto random = [&state] {
+      state = state * 1664525U + 1013904223U;
+      return static_cast<float>(state >> 8) * 0x1p-24F;
+    };
+    for (std::size_t i = 0; i < count; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        rays.origin[axis][i] = random();
+        rays.direction[axis][i] = random() - 0.5F;
+        points.push_back(double(random()));
+      }
+  }
+
+  using Query = std::function<std::optional<Error>()>;
+  std::vector<std::pair<std::string, Query>> all(int threads) const {
+    const auto error_of = [](const auto& result) { return result ? std::optional<Error>() : result.error(); };
+    const auto span = PointSpan::rows(points.data(), rays.size());
+    std::vector<std::pair<std::string, Query>> list;
+    for (const PeriodicImages* const seen : {static_cast<const PeriodicImages*>(nullptr), &*images}) {
+      const std::string among = seen != nullptr ? ", periodic" : "";
+      const RayOptions options{RayOrder::any, threads, seen, nullptr};
+      const PointOptions of_points{DistanceTo::surface, nullptr, threads, seen, nullptr};
+      list.emplace_back("closest" + among, [=, this] {
+        HitBatch hits;
+        hits.resize(rays.size());
+        return error_of(closest_hits(*tree, rays.span(), hits.span(), options));
+      });
+      list.emplace_back("occluded" + among, [=, this] {
+        std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.size()));
+        return error_of(occluded(*tree, rays.span(), hidden.data(), options));
+      });
+      list.emplace_back("all hits" + among, [=, this] {
+        std::vector<RayHit> hits;
+        return error_of(all_hits(*tree, rays.span(), hits, options));
+      });
+      list.emplace_back("nearest" + among, [=, this] {
+        return error_of(nearest_spheres(*tree, span, 8, std::numeric_limits<double>::infinity(), of_points));
+      });
+      list.emplace_back("within" + among, [=, this] { return error_of(spheres_within(*tree, span, 0.02, of_points)); });
+      list.emplace_back("numbers within" + among, [=, this] {
+        const std::vector<double> limits(static_cast<std::size_t>(span.count), 0.02);
+        return error_of(count_within(*tree, span, limits.data(), of_points));
+      });
+      list.emplace_back("pairs" + among, [=, this] { return error_of(sphere_pairs(*tree, set, 0.02, of_points)); });
+    }
+    return list;
+  }
+};
+
+TEST(Watch, queries_report_and_end_with_1) {
+  const Queries queries(20000, 40000 / static_cast<std::size_t>(test::ray_share()));
+  for (const int threads : {1, 2})
+    for (const auto& [name, query] : queries.all(threads)) {
+      SCOPED_TRACE(name);
+      Heard heard;
+      std::thread::id looked;
+      const Watch watch(heard.callback(), nullptr, [&](double) {
+        looked = std::this_thread::get_id();
+        return true;
+      });
+      EXPECT_FALSE(query().has_value());
+      if (!heard.shares.empty()) heard.expect_one_call();
+      EXPECT_TRUE(looked == std::thread::id() || looked == std::this_thread::get_id());
+    }
+}
+
+TEST(Watch, cancelled_queries_give_an_error_of_their_own) {
+  const Queries queries(2000, 5000);
+  for (const int threads : {1, 2})
+    for (const auto& [name, query] : queries.all(threads)) {
+      SCOPED_TRACE(name);
+      CancelToken stop;
+      stop.cancel();
+      {
+        const Watch watch({}, &stop);
+        const std::optional<Error> error = query();
+        ASSERT_TRUE(error.has_value());
+        EXPECT_TRUE(is_cancelled(*error)) << error->to_string();
+      }
+      EXPECT_FALSE(query().has_value());
+    }
+}
+
+// From the cancel to the end: at most some 50 ms of work on each thread.
+TEST(Watch, a_cancelled_query_ends_soon) {
+  const Queries queries(200000, 3000000 / static_cast<std::size_t>(test::ray_share()));
+  for (const auto& [name, query] : queries.all(1)) {
+    SCOPED_TRACE(name);
+    double at_cancel = 0;
+    const Watch watch({}, nullptr, [&](double) {
+      at_cancel = test::thread_time_ms();
+      return false;
+    });
+    const std::optional<Error> error = query();
+    const double took = test::thread_time_ms() - at_cancel;
+    if (!error) continue;  // it was too fast
+    EXPECT_TRUE(is_cancelled(*error)) << error->to_string();
+    EXPECT_LT(took, 50.0 * static_cast<double>(test::test_share()));
+  }
+}
+
+TEST(Watch, queries_on_threads_have_the_answers_of_those_on_one) {
+  const Queries queries(2000, 9000);
+  const RaySpan rays = queries.rays.span();
+  HitBatch one, some;
+  one.resize(rays.count);
+  some.resize(rays.count);
+  std::vector<std::uint8_t> hidden(static_cast<std::size_t>(rays.count)), other(hidden);
+  std::vector<RayHit> all, of_all;
+  closest_hits(*queries.tree, rays, RayOrder::any, one.span());
+  occluded(*queries.tree, rays, RayOrder::any, hidden.data());
+  all_hits(*queries.tree, rays, all);
+  const auto same = [](const RayHit& a, const RayHit& b) {
+    return a.ray == b.ray && a.t == b.t && a.sphere_id == b.sphere_id;
+  };
+  for (const RayOrder order : {RayOrder::any, RayOrder::blocks})
+    for (const int threads : {0, 1, 3, 200}) {
+      const RayOptions options{order, threads, nullptr, nullptr};
+      ASSERT_TRUE(closest_hits(*queries.tree, rays, some.span(), options).ok());
+      ASSERT_TRUE(occluded(*queries.tree, rays, other.data(), options).ok());
+      ASSERT_TRUE(all_hits(*queries.tree, rays, of_all, options).ok());
+      EXPECT_EQ(some.t, one.t);
+      EXPECT_EQ(some.sphere_id, one.sphere_id);
+      EXPECT_EQ(other, hidden);
+      EXPECT_TRUE(std::equal(all.begin(), all.end(), of_all.begin(), of_all.end(), same));
+    }
+  // No rays, and with images the first ray without an end.
+  ASSERT_TRUE(closest_hits(*queries.tree, {}, {}).ok());
+  ASSERT_TRUE(all_hits(*queries.tree, {}, of_all, {}).ok());
+  EXPECT_TRUE(of_all.empty());
+  RayBatch endless;
+  endless.push_back({{0, 0, 0}, {1, 0, 0}, 0, 1});
+  endless.push_back({{0, 0, 0}, {1, 0, 0}});
+  const Status status = all_hits(*queries.tree, endless.span(), of_all, {RayOrder::any, 2, &*queries.images, nullptr});
+  ASSERT_FALSE(status.ok());
+  EXPECT_NE(status.error().to_string().find("ray 1 passes"), std::string::npos) << status.error().to_string();
 }
 
 TEST(Watch, pictures_without_a_token_of_their_own_are_watched) {

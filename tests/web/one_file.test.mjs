@@ -8,8 +8,9 @@ import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import {
   and_settle, assert_same_picture, folder, launch, native_picture, no_complaints, open_own, open_page, saved_picture, scratch,
-  set_value, settled, shown_error,
+  set_value, settled, shown_error, with_cards,
 } from './page_kit.mjs';
+import { dcd } from './page_files.mjs';
 import { serve } from './page_server.mjs';
 
 const water = join(scratch, 'w & "water".xyz');
@@ -37,7 +38,7 @@ function written(name, ...words) {
 async function open_file(file, options = {}) {
   const context = await browser.newContext({ viewport: { width: 900, height: 600 }, acceptDownloads: true, offline: true, ...options });
   context.setDefaultTimeout(300_000);
-  const page = await context.newPage();
+  const page = with_cards(await context.newPage());
   const complaints = [];
   page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
   page.on('pageerror', (error) => complaints.push(`script: ${error.message}`));
@@ -110,6 +111,16 @@ test('what the page shows is saved as one page, and again from that', async () =
   no_complaints(wide.complaints);
   await wide.context.close();
 
+  // A page that is served opens it, too, with data and state.
+  const served = await open_page(browser, server.url);
+  await open_own(served.page, again.file, '3 spheres');
+  assert.equal(await style_of(served.page), 'glossy');
+  assert_same_picture(await saved_picture(served.page, 240, 160), other, 'opened by a page');
+  await served.page.setInputFiles('#file', { name: 'other.html', mimeType: 'text/html', buffer: Buffer.from('<p>Hello</p>') });
+  assert.match(await shown_error(served.page), /other\.html is no page that bihive saved/);
+  no_complaints(served.complaints);
+  await served.context.close();
+
   const last = await open_file(again.file);
   await settled(last.page);
   assert_same_picture(await saved_picture(last.page, 240, 160), other, 'opened again');
@@ -117,6 +128,38 @@ test('what the page shows is saved as one page, and again from that', async () =
   await open_own(last.page, points, '3,000 spheres');
   no_complaints(last.complaints);
   await last.context.close();
+});
+
+test('in the frame of a notebook, which gives it no origin, it works, and saves pictures', async () => {
+  const words = ['--style', 'studio', '--eye', '2,3,9', '--look-at', '0,0.3,0'];
+  const html = readFileSync(written('notebook.html', water, ...words), 'utf8');
+  const escaped = html.replace(/[&<>"]/g, (one) => `&#${one.charCodeAt(0)};`);
+  const file = join(scratch, 'notebook-frame.html');
+  // As bihive.Page of Python writes it.
+  writeFileSync(file, `<!doctype html><iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 520px" srcdoc="${escaped}"></iframe>`);
+  const { context, page, complaints } = await open_file(file);
+  const frame = with_cards(page.frames().find((one) => one.parentFrame() === page.mainFrame()));
+  await frame.waitForSelector('#picture[data-settled=true]');
+  assert.match(await frame.textContent('#facts'), /3 spheres, XYZ/);
+  await frame.fill('#save_width', '120');
+  await frame.fill('#save_height', '80');
+  const [download] = await Promise.all([page.waitForEvent('download'), frame.click('#save')]);
+  assert_same_picture(readFileSync(await download.path()), native_picture(water, 'notebook', ...words, '--size', '120x80', '--no-metadata'), 'of a notebook');
+  await page.screenshot({ path: join(scratch, 'notebook.png') });
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a trajectory is in the page that bihive web --html writes', async () => {
+  const run = join(scratch, 'walk.dcd');
+  writeFileSync(run, dcd([0, 1, 2, 3].map((i) => [[0, 0, 0], [0.96 + i, 0, 0], [-0.24, 0.93, 0]])));
+  const { context, page, complaints } = await open_file(written('walk.html', water, '--trajectory', run));
+  await settled(page);
+  assert.match(await page.textContent('#facts'), /4 frames/);
+  await page.click('#player_on');
+  await page.waitForSelector('#player[data-frame="1"]');
+  no_complaints(complaints);
+  await context.close();
 });
 
 test('where the page was built without the one file, saving says so', async () => {

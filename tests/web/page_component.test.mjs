@@ -109,7 +109,7 @@ test('the packed component shows a file in a few lines, and says what came of it
   await page.goto(`${url}example.html`);
   const frame = await drawn(page);
   assert.equal((await heard(page, 'load'))[0].spheres, 1631);
-  assert.equal(await frame.isVisible('#panel'), false, 'the picture alone');
+  assert.equal(await frame.isVisible('#bar'), false, 'the picture alone');
   assert.equal(await frame.inputValue('input[name=style]:checked'), 'illustrative');
   assert.deepEqual(complaints, []);
   await close();
@@ -144,7 +144,7 @@ test('attributes change the picture in place, and the camera stays', async () =>
   await page.evaluate(() => document.querySelector('bihive-viewer').setAttribute('badge', ''));
   await frame.waitForSelector('#badge', { state: 'visible' });
   await page.evaluate(() => document.querySelector('bihive-viewer').setAttribute('panel', ''));
-  await frame.waitForSelector('#panel', { state: 'visible' });
+  await frame.waitForSelector('#bar', { state: 'visible' });
   assert.deepEqual(await heard(page, 'error'), []);
   await close();
 });

@@ -5,14 +5,13 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { made_files, points_in_a_cube, ways_in } from './page_files.mjs';
 import {
-  and_settle, assert_same_picture, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
-  scratch, set_value, settled, sheet_still, shown_error, source,
+  and_settle, assert_same_picture, folder, height, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
+  scratch, set_value, settled, shown_error, size as sized, small, source, width,
 } from './page_kit.mjs';
 import { serve } from './page_server.mjs';
 
 // From a small phone to a large screen.
 const sizes = [[320, 480], [360, 740], [768, 1024], [1280, 800], [2560, 1440]];
-const small = { viewport: { width: 800, height: 240 } };
 const molecule = { name: 'mine.pdb', bytes: readFileSync(join(source, 'data/1hpv.pdb')) };
 const points = { name: 'points.csv', bytes: Buffer.from('x,y,z\n0,0,0\n1,0,0\n0,2,0\n') };
 
@@ -26,11 +25,6 @@ after(async () => {
   server?.close();
 });
 
-const open_panel = async (page) => {
-  if ((await page.getAttribute('#panel_toggle', 'aria-expanded')) === 'true') return;
-  await page.click('#panel_toggle');
-  await sheet_still(page);
-};
 const scrolled = (page) =>
   page.evaluate(() => [...document.querySelectorAll('html, body, main, #stage, #picture')].map((box) => [box.scrollTop, box.scrollLeft]).flat());
 const not_scrolled = async (page, what) => assert.deepEqual(new Set(await scrolled(page)), new Set([0]), what);
@@ -79,40 +73,43 @@ for (const [width, height] of sizes)
   test(`by click and by Tab nothing scrolls the picture away, ${width} x ${height}`, async () => {
     const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width, height } });
     await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
-    await open_panel(page);
-    await page.evaluate(() => document.querySelectorAll('details.group').forEach((group) => (group.open = true)));
-
-    // Clicks on what stands for hidden inputs, far down in the panel.
+    // Clicks on what stands for hidden inputs, far down in a card.
     for (const control of ['#style input[value=plain] + *', '#theme input[value=dark] + span', '#engine input[value=cpu] + span', '#theme input[value=auto] + span']) {
+      await page.unfold(control);
       await page.locator(control).scrollIntoViewIfNeeded();
       await page.click(control);
       await not_scrolled(page, `a click on ${control}`);
     }
 
-    // Tab goes to every control once; each is seen while it has the focus.
-    const wanted = await page.$$eval('#panel_body :is(input, select, button, summary)', (all) =>
-      all.filter((one) => !one.disabled && one.getClientRects().length > 0).length);
-    await page.focus('#redo');
+    // Tab goes to every control of every card once; each is seen while it has the focus.
     let seen = 0;
-    for (let i = 0; i < wanted + 3; ++i) {
-      await page.keyboard.press('Tab');
-      const place = await page.evaluate(() => {
-        const focused = document.activeElement;
-        if (!focused || !focused.closest('#panel_body')) return null;
-        const box = (focused.closest('label') ?? focused).getBoundingClientRect();
-        const visible = box.bottom > 0 && box.top < innerHeight && box.right > 0 && box.left < innerWidth;
-        return { name: focused.id || focused.textContent.trim() || focused.value, visible, wide: box.right > innerWidth + 1 };
-      });
-      if (!place) break;
-      ++seen;
-      assert.ok(place.visible && !place.wide, `${place.name} is seen while it has the focus`);
-      await not_scrolled(page, `Tab to ${place.name}`);
+    for (const card of await page.$$eval('.card', (all) => all.map(({ id }) => id))) {
+      await page.evaluate((id) => document.querySelector(`[data-card="${id.slice(5)}"]:not([aria-expanded=true])`)?.click(), card);
+      await page.evaluate(() => document.querySelectorAll('details.group').forEach((group) => (group.open = true)));
+      const wanted = await page.$$eval(`#${card} :is(input, select, button, summary)`, (all) =>
+        all.filter((one) => !one.disabled && one.getClientRects().length > 0).length);
+      await page.by_hand.focus('#panel_close');
+      for (let i = 0; i < wanted + 3; ++i) {
+        await page.keyboard.press('Tab');
+        const place = await page.evaluate(() => {
+          const focused = document.activeElement;
+          if (!focused || !focused.closest('#panel_body')) return null;
+          const box = (focused.closest('label') ?? focused).getBoundingClientRect();
+          const panel = document.getElementById('panel').getBoundingClientRect();
+          const visible = box.bottom > panel.top && box.top < panel.bottom && box.right > 0 && box.left < innerWidth;
+          return { name: focused.id || focused.textContent.trim() || focused.value, visible, wide: box.right > panel.right + 1 };
+        });
+        if (!place) break;
+        ++seen;
+        assert.ok(place.visible && !place.wide, `${place.name} is seen while it has the focus`);
+        await not_scrolled(page, `Tab to ${place.name}`);
+      }
+      await page.screenshot({ path: join(scratch, `${card}-${width}x${height}.png`) });
     }
-    assert.ok(seen > 40, `Tab reaches ${seen} controls`);
+    assert.ok(seen > 60, `Tab reaches ${seen} controls`);
     const box = await page.locator('#picture').boundingBox();
     assert.deepEqual([box.x, box.y], [0, 0], 'the picture is where it was');
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
-    await page.screenshot({ path: join(scratch, `panel-${width}x${height}.png`) });
     no_complaints(complaints);
     await context.close();
   });
@@ -122,31 +119,37 @@ test('the scene is in what the controls leave free', async () => {
   const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 360, height: 740 } });
   const free = () =>
     page.evaluate(() => {
-      const [picture, panel] = ['picture', 'panel'].map((id) => document.getElementById(id).getBoundingClientRect());
+      const box = (id) => document.getElementById(id).getBoundingClientRect();
+      const [picture, panel] = [box('picture'), document.getElementById('panel').hidden ? box('bar') : box('panel')];
       return [picture.height, panel.top - picture.bottom, picture.width].map(Math.round);
     });
-  assert.deepEqual(await free(), [682, 0, 360]);
-  await open_panel(page);
+  assert.deepEqual(await free(), [686, 0, 360]);
+  await and_settle(page, () => page.click('[data-card=style]'));
+  const [above, gap] = await free();
+  assert.ok(above > 300 && gap === 0, `${above} pixels above the sheet`);
+  assert.match(await page.textContent('#badge_frame'), new RegExp(`360 × ${above}$`), 'the picture is of that size');
+  // A finger on its head makes it lower, and Escape ends it; a button makes it as high as the window.
+  const head = await page.locator('#panel_title').boundingBox();
+  await page.mouse.move(head.x + 20, head.y + 8);
+  await page.mouse.down();
+  await page.mouse.move(head.x + 20, head.y + 60, { steps: 4 });
+  await page.mouse.up();
   await settled(page);
-  const [height, gap] = await free();
-  assert.ok(height > 300 && gap === 0, `${height} pixels above the sheet`);
-  assert.match(await page.textContent('#badge_frame'), new RegExp(`360 × ${height}$`), 'the picture is of that size');
+  assert.ok((await free())[0] > above && (await free())[1] === 0);
   await page.click('#panel_tall');
-  assert.ok((await page.locator('#panel').boundingBox()).height > 700);
-  await page.click('#panel_tall');
-  await page.click('#panel_toggle');
-  await sheet_still(page);
-  await settled(page);
-  assert.deepEqual(await free(), [682, 0, 360]);
+  assert.ok((await page.locator('#panel').boundingBox()).height > 650);
+  await and_settle(page, () => page.keyboard.press('Escape'));
+  assert.deepEqual(await free(), [686, 0, 360]);
 
   await page.setViewportSize({ width: 1000, height: 600 });
   await settled(page);
-  assert.equal((await free())[2], 668);
-  await and_settle(page, () => page.click('#panel_toggle'));
-  assert.equal((await free())[2], 1000, 'folded at the side of a wide window');
+  assert.deepEqual(await free().then(([high, , wide]) => [wide, high]), [1000, 600]);
+  await page.click('[data-card=style]');
+  assert.deepEqual(await free().then(([high, , wide]) => [wide, high]), [1000, 600], 'a card lies over it');
+  await page.mouse.click(300, 300);
+  assert.ok(await page.by_hand.isHidden('#panel'), 'a click on the picture closes it');
+  assert.ok(await page.isHidden('#pins'), 'and pins nothing');
   assert.ok(await page.isVisible('#undo'));
-  await and_settle(page, () => page.click('#panel_toggle'));
-  assert.equal((await free())[2], 668);
   no_complaints(complaints);
   await context.close();
 });
@@ -283,14 +286,14 @@ test('without JavaScript, or without OffscreenCanvas, the page says so', async (
 });
 
 test('a long molecule stays in the picture while it turns', async () => {
-  const { page, context } = await open_page(browser, server.url, { viewport: { width: 800, height: 300 } });
+  const { page, context } = await open_page(browser, server.url, { viewport: { width: 580, height: 300 } });
   const rod = `x,y,z,r\n${Array.from({ length: 81 }, (_, i) => `0,0,${i - 40},1`).join('\n')}\n`;
   await and_settle(page, () => ways_in.picker(page, { name: 'rod.csv', bytes: Buffer.from(rod) }));
   await and_settle(page, () => page.selectOption('#background', 'none'));
   await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   for (let i = 0; i < 3; ++i) {
     await and_settle(page, () => page.press('#picture', 'ArrowLeft'));
-    const png = await saved_picture(page, 468, 300);
+    const png = await saved_picture(page, 580, 300);
     const clear = await page.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
       const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
@@ -319,13 +322,13 @@ test('a radius is a field and an address, and messages name the field', async ()
   assert.equal(state.settings.samples_per_pixel, 1, 'settings stay');
   const file = join(scratch, 'points.csv');
   writeFileSync(file, points.bytes);
-  const native = (...options) => native_picture(file, 'radius', '--size', '468x240', '--samples', '1', ...options);
-  assert_same_picture(await saved_picture(page, 468, 240), native('--radius', '0.25'), 'a radius of 0.25');
+  const native = (...options) => native_picture(file, 'radius', ...sized, '--samples', '1', ...options);
+  assert_same_picture(await saved_picture(page, width, height), native('--radius', '0.25'), 'a radius of 0.25');
   await and_settle(page, () => set_value(page, '#radius_scale', 3));
-  assert_same_picture(await saved_picture(page, 468, 240), native('--radius', '0.25', '--radius-scale', '3'), 'times 3');
+  assert_same_picture(await saved_picture(page, width, height), native('--radius', '0.25', '--radius-scale', '3'), 'times 3');
   await and_settle(page, () => set_value(page, '#radius', ''));
   await and_settle(page, () => set_value(page, '#radius_scale', ''));
-  assert_same_picture(await saved_picture(page, 468, 240), native(), 'the file’s own');
+  assert_same_picture(await saved_picture(page, width, height), native(), 'the file’s own');
   no_complaints(complaints);
   await context.close();
 
@@ -333,7 +336,7 @@ test('a radius is a field and an address, and messages name the field', async ()
   await and_settle(asked.page, () => ways_in.picker(asked.page, points));
   assert.equal(await asked.page.inputValue('#radius'), '0.5');
   await and_settle(asked.page, () => set_value(asked.page, '#samples_per_pixel', 1));
-  assert_same_picture(await saved_picture(asked.page, 468, 240), native('--radius', '0.5', '--radius-scale', '2'), 'by address');
+  assert_same_picture(await saved_picture(asked.page, width, height), native('--radius', '0.5', '--radius-scale', '2'), 'by address');
   await asked.context.close();
 
   const wrong = await open_page(browser, `${server.url}?radius=wide`, small);
@@ -346,7 +349,7 @@ test('columns are a field and an address, also for a file that cannot be read wi
   const file = join(scratch, 'table.csv');
   writeFileSync(file, table.bytes);
   const native = () =>
-    native_picture(file, 'columns', '--size', '468x240', '--samples', '1', '--columns', 'x=px,y=py,z=pz,r=size');
+    native_picture(file, 'columns', ...sized, '--samples', '1', '--columns', 'x=px,y=py,z=pz,r=size');
   const { page, context, complaints } = await open_page(browser, server.url, small);
   await ways_in.picker(page, table);
   assert.match(await shown_error(page), /table\.csv.*“Columns” in the panel/s);
@@ -357,14 +360,14 @@ test('columns are a field and an address, also for a file that cannot be read wi
   await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   const state = await link_state(page);
   assert.deepEqual(state.source, { file: 'table.csv', reading: { columns: 'x=px,y=py,z=pz,r=size' } });
-  assert_same_picture(await saved_picture(page, 468, 240), native(), 'columns by name');
+  assert_same_picture(await saved_picture(page, width, height), native(), 'columns by name');
   no_complaints(complaints);
   await context.close();
 
   const asked = await open_page(browser, `${server.url}?columns=x=px,y=py,z=pz,r=size`, small);
   await and_settle(asked.page, () => ways_in.picker(asked.page, table));
   await and_settle(asked.page, () => set_value(asked.page, '#samples_per_pixel', 1));
-  assert_same_picture(await saved_picture(asked.page, 468, 240), native(), 'columns by address');
+  assert_same_picture(await saved_picture(asked.page, width, height), native(), 'columns by address');
   await asked.context.close();
 });
 

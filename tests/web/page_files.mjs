@@ -60,3 +60,27 @@ export const ways_in = {
     await page.press('#url', 'Enter');
   },
 };
+
+/** A trajectory in CHARMM's and NAMD's format, records of bytes between their lengths: of each frame the places of all atoms. */
+export function dcd(frames) {
+  const record = (bytes) => {
+    const length = Buffer.alloc(4);
+    length.writeInt32LE(bytes.length);
+    return Buffer.concat([length, bytes, length]);
+  };
+  const header = Buffer.alloc(84);
+  header.write('CORD', 0, 'latin1');
+  for (const [at, value] of [[1, frames.length], [2, 0], [3, 1], [4, frames.length], [20, 24]]) header.writeInt32LE(value, 4 * at);
+  const title = Buffer.alloc(84, ' ');
+  title.writeInt32LE(1, 0);
+  const count = Buffer.alloc(4);
+  count.writeInt32LE(frames[0].length);
+  const parts = [record(header), record(title), record(count)];
+  for (const places of frames)
+    for (const axis of [0, 1, 2]) {
+      const values = Buffer.alloc(4 * places.length);
+      places.forEach((place, i) => values.writeFloatLE(place[axis], 4 * i));
+      parts.push(record(values));
+    }
+  return Buffer.concat(parts);
+}

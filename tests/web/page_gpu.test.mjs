@@ -49,7 +49,7 @@ function assert_agreement(found, recursion, what) {
 
 test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge', async () => {
   // A small window: software draws slowly.
-  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
+  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 524, height: 262 } });
   await choose_gpu(page);
   await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   for (const scene of ['demo', 'four-spheres', 'scenario1', 'scenario2', 'scenario3']) {
@@ -73,7 +73,7 @@ test('the GPU engine agrees with the CPU: few pixels differ, and each on an edge
 });
 
 test('more samples on edges are the CPU engine’s: the GPU engine takes their number', async () => {
-  const { page, context } = await open_page(browser, server.url, { viewport: { width: 800, height: 240 } });
+  const { page, context } = await open_page(browser, server.url, { viewport: { width: 524, height: 262 } });
   await and_settle(page, () => page.click('#samples_auto'));
   assert.ok(await page.isDisabled('#samples_per_pixel'));
   await choose_gpu(page);
@@ -86,7 +86,7 @@ test('more samples on edges are the CPU engine’s: the GPU engine takes their n
 });
 
 test('the GPU engine draws styles, and a transparent background', async () => {
-  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 780, height: 240 } });
+  const { page, context, complaints } = await open_page(browser, server.url, { viewport: { width: 524, height: 262 } });
   await choose_gpu(page);
   await and_settle(page, () => set_value(page, '#samples_per_pixel', 2));
   for (const style of ['default', 'xray']) {
@@ -127,7 +127,7 @@ test('without textures of floating point the GPU engine draws the very same pict
   const poor = await serve(folder, { before: [/\/worker-.*\.js$/, without_floats] });
   const pictures = [];
   for (const { url } of [server, poor]) {
-    const { page, context, complaints } = await open_page(browser, url, { viewport: { width: 780, height: 240 } });
+    const { page, context, complaints } = await open_page(browser, url, { viewport: { width: 524, height: 262 } });
     await and_settle(page, () => page.selectOption('#built_in', 'four-spheres'));
     await choose_gpu(page);
     await and_settle(page, () => set_value(page, '#samples_per_pixel', 2));

@@ -25,9 +25,9 @@ const flags = [
 
 export const launch = (...more) => chromium.launch({ executablePath: process.env.CHROMIUM, args: [...flags, ...more], timeout: patience });
 
-/** A small window, the picture that the panel leaves of it, and the option for one of this size. */
-export const small = { viewport: { width: 800, height: 240 } };
-export const [width, height] = [468, 240];
+/** A small window, which the picture fills, and the option for one of this size. */
+export const [width, height] = [524, 262];
+export const small = { viewport: { width, height } };
 export const size = ['--size', `${width}x${height}`];
 
 /** A browser and a server of the page for all tests of a file: {browser, server} once they run. */
@@ -47,11 +47,61 @@ export function with_page() {
 /** How long a test waits for what must come: long, for other work may keep the machine busy. */
 const patience = 300_000;
 
+// As a user would who looks for a control: opens its card, and the groups around it.
+async function unfold_around(locator) {
+  if ((await locator.count()) === 0) return;
+  await locator.evaluate((found) => {
+    const card = found.closest('.card');
+    if (card && (card.hidden || document.getElementById('panel').hidden)) document.querySelector(`[data-card="${card.id.slice('card_'.length)}"]`).click();
+    // A group itself stays as it is.
+    const group = found.localName === 'summary' ? found.parentElement : found;
+    for (let box = (group.localName === 'details' ? group.parentElement : group).closest('details'); box; box = box.parentElement.closest('details')) box.open = true;
+  });
+}
+
+const actions = ['click', 'tap', 'fill', 'check', 'uncheck', 'selectOption', 'focus', 'press', 'isVisible', 'isHidden', 'waitForSelector'];
+const of_locators = [...actions.slice(0, -1), 'pressSequentially', 'scrollIntoViewIfNeeded'];
+
+function with_cards_around(locator) {
+  const { first, last, nth, locator: inner } = locator;
+  const plain_first = first.call(locator);
+  for (const action of of_locators) {
+    const plain = locator[action].bind(locator);
+    locator[action] = async (...all) => {
+      await unfold_around(plain_first);
+      return plain(...all);
+    };
+  }
+  for (const [name, make] of Object.entries({ first, last, nth, locator: inner })) locator[name] = (...all) => with_cards_around(make.apply(locator, all));
+  return locator;
+}
+
+/** A page whose actions first open the card of what they act on, so that tests need not say where it is. `by_hand`: without;
+ * `unfold`: that alone. */
+export function with_cards(page) {
+  const find = page.locator.bind(page);
+  page.unfold = (selector) => unfold_around(find(selector).first());
+  page.by_hand = { locator: find };
+  for (const action of actions) {
+    const plain = page[action].bind(page);
+    page.by_hand[action] = plain;
+    page[action] = async (selector, ...more) => {
+      await page.unfold(selector);
+      return plain(selector, ...more);
+    };
+  }
+  page.locator = (...all) => with_cards_around(find(...all));
+  return page;
+}
+
+/** No card lies over the picture. */
+export const close_card = (page) => page.evaluate(() => document.querySelector('#panel:not([hidden]) #panel_close')?.click());
+
 /** Opens the page and waits for the first whole picture. `complaints` fills with whatever the browser complains of. */
 export async function open_page(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 900, height: 600 }, acceptDownloads: true, ...options });
+  const context = await browser.newContext({ viewport: { width: 720, height: 480 }, acceptDownloads: true, ...options });
   context.setDefaultTimeout(patience);
-  const page = await context.newPage();
+  const page = with_cards(await context.newPage());
   const complaints = [];
   page.on('console', (message) => {
     if (message.type() === 'error') complaints.push(`console: ${message.text()}`);
@@ -68,13 +118,6 @@ export async function open_page(browser, url, options = {}) {
 
 /** Waits until all of the picture is drawn. */
 export const settled = (page) => page.waitForSelector('#picture[data-settled=true]', { timeout: patience });
-
-/** Waits until the sheet of controls of a narrow window has come up or gone down. */
-export const sheet_still = (page) =>
-  page.evaluate(async () => {
-    await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
-    await Promise.all(document.getElementById('panel').getAnimations().map(({ finished }) => finished));
-  });
 
 /** Opens a file of the user's, and waits until the page says these words of it, and for its picture. */
 export async function open_own(page, file, words) {
@@ -183,7 +226,7 @@ export function assert_same_picture(png, expected, what) {
 export async function shown_picture(page, canvas) {
   const covers = (visibility) =>
     page.evaluate((value) => {
-      for (const cover of document.querySelectorAll('#stage > :not(#picture)')) cover.style.visibility = value;
+      for (const cover of document.querySelectorAll('#stage > :not(#picture), #tools, #panel')) cover.style.visibility = value;
     }, visibility);
   await covers('hidden');
   const shown = await page.locator(canvas).screenshot();
@@ -207,6 +250,11 @@ export async function set_value(page, selector, value) {
 /** The state that the page's link holds. */
 export async function link_state(page) {
   await page.click('#copy_link');
+  return state_of_address(page);
+}
+
+/** The same, once somebody has copied it. */
+export async function state_of_address(page) {
   await page.waitForFunction(() => location.hash.startsWith('#state='));
   const text = new URL(page.url()).hash.slice('#state='.length);
   return JSON.parse(Buffer.from(text, 'base64url').toString('utf8'));

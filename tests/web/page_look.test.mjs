@@ -55,7 +55,7 @@ test('each style is the one of the program, with its name and picture', async ()
 });
 
 test('looks of selections, colours of elements and a background, by keys; and their link', async () => {
-  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 800, height: 900 } });
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 800, height: 560 } });
   await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
   await and_settle(page, () => page.selectOption('#element_colours', 'cpk'));
   await page.selectOption('#background', 'colour');
@@ -73,21 +73,21 @@ test('looks of selections, colours of elements and a background, by keys; and th
   for (const name of ['b_factor', 'chain', 'resname', 'element']) assert.ok(attributes.includes(name), name);
   assert.equal(await words_of(page, 2), '138 spheres', 'as docs/selections.md says');
   const options = rows.flatMap(({ select, action, value }) => ['--select', select, `--${action}`, ...(value ? [value] : [])]);
-  const native = native_picture('demo', 'rows', '--size', '468x900', '--samples', '1', '--element-colours', 'cpk',
+  const native = native_picture('demo', 'rows', '--size', '800x560', '--samples', '1', '--element-colours', 'cpk',
     '--background', '#203040', ...options);
-  assert_same_picture(await saved_picture(page, 468, 900), native, 'rows');
+  assert_same_picture(await saved_picture(page, 800, 560), native, 'rows');
   await page.locator('#look_title').scrollIntoViewIfNeeded();
   await page.screenshot({ path: join(scratch, 'page-rows.png') });
 
   // A link brings all of it back.
   const state = await link_state(page);
   assert.deepEqual(state.look.rows.map(({ select }) => select), rows.map(({ select }) => select));
-  const other = await open_page(kit.browser, page.url(), { viewport: { width: 800, height: 900 } });
+  const other = await open_page(kit.browser, page.url(), { viewport: { width: 800, height: 560 } });
   assert.deepEqual(await link_state(other.page), state);
   assert.equal(await other.page.inputValue('.look_row:nth-child(2) .value'), 'orange');
   assert.equal(await other.page.inputValue('#element_colours'), 'cpk');
   assert.equal(await other.page.inputValue('#background_colour'), '#203040');
-  assert_same_picture(await saved_picture(other.page, 468, 900), native, 'by the link');
+  assert_same_picture(await saved_picture(other.page, 800, 560), native, 'by the link');
   no_complaints(other.complaints);
   await other.context.close();
 
@@ -176,8 +176,6 @@ test('a link with a look that does not fit says so and shows the scene', async (
 
 test('320 pixels are wide enough', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 320, height: 640 } });
-  await page.click('#panel_toggle');
-  await page.waitForTimeout(350); // until the sheet is up
   await add_row(page, { select: 'chain A', action: 'colour-by', value: 'resid' });
   for (const box of ['#panel_body', '#style', '.look_row'])
     assert.ok(await page.$eval(box, (element) => element.scrollWidth <= element.clientWidth), box);

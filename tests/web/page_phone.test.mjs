@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { devices } from 'playwright-core';
-import { and_settle, link_state, no_complaints, open_page, scratch, sheet_still, with_page } from './page_kit.mjs';
+import { and_settle, link_state, no_complaints, open_page, scratch, with_page } from './page_kit.mjs';
 
 const kit = with_page();
 
@@ -29,16 +29,8 @@ for (const scheme of ['light', 'dark'])
     const width = () => page.evaluate(() => document.documentElement.scrollWidth);
     assert.equal(await width(), 360);
     const state = async () => {
-      // On a busy machine a tap right after two fingers can count as part of their gesture.
-      const is_open = async () => (await page.getAttribute('#panel_toggle', 'aria-expanded')) === 'true';
-      for (let i = 0; i < 3 && !(await is_open()); ++i) {
-        await page.tap('#panel_toggle');
-        await sheet_still(page);
-      }
-      assert.ok(await is_open(), 'the sheet opens');
       const found = await link_state(page);
-      await page.tap('#panel_toggle');
-      await sheet_still(page);
+      await page.click('#panel_close');
       return found.settings.camera;
     };
     const away = ({ eye, look_at }) => Math.hypot(...eye.map((value, i) => value - look_at[i]));
@@ -56,22 +48,28 @@ for (const scheme of ['light', 'dark'])
     assert.notDeepEqual(moved.look_at, near.look_at);
 
     // The sheet: everything inside the window, nothing smaller than a fingertip.
-    await page.tap('#panel_toggle');
-    await sheet_still(page);
-    await page.screenshot({ path: join(scratch, `phone-${scheme}-sheet.png`) });
-    assert.equal(await width(), 360);
-    const small = await page.evaluate(() =>
-      [...document.querySelectorAll('#panel button, #panel select, #panel input[type=range], #panel .button')]
-        .filter((element) => element.getClientRects().length > 0 && element.getBoundingClientRect().height < 38)
-        .map((element) => element.id || element.textContent),
-    );
-    assert.deepEqual(small, []);
-    const outside = await page.evaluate(() =>
-      [...document.querySelectorAll('#panel *')]
-        .filter((element) => element.getClientRects().length > 0 && element.getBoundingClientRect().right > 361)
-        .map((element) => element.outerHTML.slice(0, 80)),
-    );
-    assert.deepEqual(outside, []);
+    for (const card of await page.$$eval('.card', (all) => all.map(({ id }) => id.slice('card_'.length)))) {
+      const by_thumb = page.by_hand.locator(`:is(#bar, #badge, .more_cards [data-card]) [data-card=${card}], #badge[data-card=${card}]`).first();
+      if (await by_thumb.isVisible()) await by_thumb.tap();
+      else {
+        await page.tap('#bar [data-card=more]');
+        await page.by_hand.locator(`.more_cards [data-card=${card}]`).tap();
+      }
+      await page.screenshot({ path: join(scratch, `phone-${scheme}-${card}.png`) });
+      assert.equal(await width(), 360);
+      const small = await page.evaluate(() =>
+        [...document.querySelectorAll(':is(#panel, #bar) :is(button, select, input[type=range], .button)')]
+          .filter((element) => element.getClientRects().length > 0 && element.getBoundingClientRect().height < 38)
+          .map((element) => element.id || element.textContent),
+      );
+      assert.deepEqual(small, [], card);
+      const outside = await page.evaluate(() =>
+        [...document.querySelectorAll('#panel *')]
+          .filter((element) => element.getClientRects().length > 0 && element.getBoundingClientRect().right > 361)
+          .map((element) => element.outerHTML.slice(0, 80)),
+      );
+      assert.deepEqual(outside, [], card);
+    }
     await page.tap('#thesis_open');
     await page.screenshot({ path: join(scratch, `phone-${scheme}-thesis.png`) });
     assert.equal(await width(), 360);

@@ -9,6 +9,7 @@ import {
   and_settle, assert_same_picture, height, native_picture, no_complaints, open_page, saved_picture, scratch, shown_error,
   size, small, width, with_page,
 } from './page_kit.mjs';
+import { dcd } from './page_files.mjs';
 
 const kit = with_page();
 
@@ -18,30 +19,6 @@ const frames = 6;
 const xyz = (count) =>
   Array.from({ length: count }, (_, frame) => `3\nframe ${frame}\n${places(frame).map((p, i) => `${'CON'[i]} ${p.join(' ')}\n`).join('')}`).join('');
 const run = { name: 'run.xyz', bytes: Buffer.from(xyz(frames)) };
-
-// CHARMM's and NAMD's format: records of bytes between their lengths.
-function dcd() {
-  const record = (bytes) => {
-    const length = Buffer.alloc(4);
-    length.writeInt32LE(bytes.length);
-    return Buffer.concat([length, bytes, length]);
-  };
-  const header = Buffer.alloc(84);
-  header.write('CORD', 0, 'latin1');
-  for (const [at, value] of [[1, frames], [2, 0], [3, 1], [4, frames], [20, 24]]) header.writeInt32LE(value, 4 * at);
-  const title = Buffer.alloc(84, ' ');
-  title.writeInt32LE(1, 0);
-  const count = Buffer.alloc(4);
-  count.writeInt32LE(3);
-  const parts = [record(header), record(title), record(count)];
-  for (let frame = 0; frame < frames; ++frame)
-    for (const axis of [0, 1, 2]) {
-      const values = Buffer.alloc(12);
-      places(frame).forEach((place, i) => values.writeFloatLE(place[axis], 4 * i));
-      parts.push(record(values));
-    }
-  return Buffer.concat(parts);
-}
 
 const pick = (page, ...files) =>
   page.setInputFiles('#file', files.map(({ name, bytes }) => ({ name, mimeType: 'application/octet-stream', buffer: bytes })));
@@ -123,7 +100,7 @@ test('a frame in the address is where the player begins', async () => {
 
 test('a trajectory in a file of its own, at once with its spheres or behind them', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
-  const spheres = { name: 'three.xyz', bytes: Buffer.from(xyz(1)) }, moves = { name: 'run.dcd', bytes: dcd() };
+  const spheres = { name: 'three.xyz', bytes: Buffer.from(xyz(1)) }, moves = { name: 'run.dcd', bytes: dcd(Array.from({ length: frames }, (_, frame) => places(frame))) };
   const [path, trajectory] = [on_disk(spheres), on_disk(moves)];
   const same = async (frame) => {
     await settled_at(page, frame);
@@ -171,7 +148,7 @@ for (const viewport of [{ width: 320, height: 480 }, { width: 390, height: 844 }
     await and_settle(page, () => pick(page, run));
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
     const boxes = await page.$$eval('#player button, #player input', (all) => all.map((input) => [input.id, input.getBoundingClientRect().toJSON()]));
-    const sheet = (await page.locator('#panel').boundingBox()).y;
+    const sheet = (await page.locator('#bar').boundingBox()).y;
     for (const [id, box] of boxes) {
       assert.ok(box.left >= 0 && box.right <= viewport.width && box.bottom <= sheet, `${id} is in reach`);
       if (id !== 'player_loop') assert.ok(box.height >= 38, `${id} is as high as a fingertip`);

@@ -1,10 +1,10 @@
 // The panel's appearance controls for all spheres: lights, floor, lines between groups, and colours by an attribute.
 import { element } from './dom';
-import type { ColouredBy, Facts, Look } from './protocol';
-import { colour_maps } from './settings';
+import { HistogramView } from './histogram';
+import type { Choices, ColouredBy, Facts, Histogram, Look } from './protocol';
 import { is_typing_in } from './typing';
+import { words } from './words';
 
-const presets = ['studio', 'cloudy', 'headlight', 'thesis'];
 const grey = '#808080';
 
 /** The fields of ATTR:MAP:MIN,MAX:log, as `bihive render --colour-by` takes it. */
@@ -52,8 +52,16 @@ export class ColourControls {
   private readonly max = element<HTMLInputElement>('colour_max');
   private readonly log = element<HTMLInputElement>('colour_log');
   private readonly nan_colour = element<HTMLInputElement>('nan_colour');
+  private readonly histogram = new HistogramView(([min, max]) => {
+    this.min.value = String(min);
+    this.max.value = String(max);
+    this.change_colours();
+  });
+  private presets: string[] = [];
+  private asked = ''; // the attribute of the histogram
 
-  constructor(private readonly change: (changes: Partial<Look>) => void) {
+  /** `histogram_of`: take_histogram() gets the answer. */
+  constructor(private readonly change: (changes: Partial<Look>) => void, private readonly histogram_of: (attribute: string) => void) {
     this.lights.addEventListener('change', () => this.change_lights());
     this.own_lights.addEventListener('change', () => this.change_lights());
     this.crease.addEventListener('change', () => change({ crease: this.crease.value }));
@@ -64,10 +72,29 @@ export class ColourControls {
       this.min.value = this.max.value = '';
       this.change_colours();
     });
-    fill(this.map, 'automatic', [...colour_maps]);
     for (const input of [this.map, this.min, this.max, this.log])
       input.addEventListener('change', () => this.change_colours());
     this.nan_colour.addEventListener('change', () => change({ nan_colour: this.nan_colour.value }));
+  }
+
+  /** The library's names. */
+  build({ lights, maps }: Choices): void {
+    this.presets = lights;
+    const own = this.lights.querySelector('[value=own]')!;
+    for (const name of lights) own.before(new Option(words.light_labels[name] ?? name, name));
+    fill(this.map, 'automatic', maps.map(({ name }) => name));
+    this.histogram.build(maps);
+  }
+
+  take_histogram(attribute: string, histogram: Histogram | null): void {
+    if (attribute !== this.asked) return;
+    this.histogram.take(histogram);
+    this.draw_histogram();
+  }
+
+  private draw_histogram(): void {
+    const ends = [this.min, this.max].map(({ value, placeholder }) => (value || placeholder) !== '' ? Number(value || placeholder) : NaN);
+    this.histogram.draw(this.map.value, ends.every(Number.isFinite) ? [ends[0]!, ends[1]!] : undefined);
   }
 
   private change_lights(): void {
@@ -93,13 +120,15 @@ export class ColourControls {
 
   show_facts(facts: Facts): void {
     const whose = facts.is_file_of_spheres ? 'the style’s' : 'the file’s';
+    this.asked = '';
+    this.histogram.take(null);
     fill(this.attribute, `${whose} colours`, facts.attributes);
     fill(this.crease, facts.is_file_of_spheres ? 'the style’s lines' : 'the file’s lines', facts.attributes);
     this.lights.options[0]!.textContent = whose;
   }
 
   show(look: Look): void {
-    const own = look.lights.length > 1 || (look.lights.length === 1 && !presets.includes(look.lights[0]!));
+    const own = look.lights.length > 1 || (look.lights.length === 1 && !this.presets.includes(look.lights[0]!));
     const waits = [this.lights, this.own_lights].includes(document.activeElement as HTMLInputElement);
     if (own || !waits) {
       this.lights.value = own ? 'own' : look.lights[0] ?? '';
@@ -120,6 +149,12 @@ export class ColourControls {
     this.log.checked = parts.log;
     element<HTMLFieldSetElement>('colour_map_box').disabled = parts.attribute === '';
     this.nan_colour.value = /^#[0-9a-f]{6}$/i.test(look.nan_colour) ? look.nan_colour : grey;
+    if (parts.attribute !== this.asked) {
+      this.asked = parts.attribute;
+      this.histogram.take(null);
+      if (this.asked !== '') this.histogram_of(this.asked);
+    }
+    this.draw_histogram();
   }
 
   /** The empty fields show the range that the library chose. */
@@ -127,5 +162,6 @@ export class ColourControls {
     const range = coloured_by.find(({ attribute }) => attribute === this.attribute.value)?.range;
     this.min.placeholder = range ? String(+range[0].toPrecision(4)) : '';
     this.max.placeholder = range ? String(+range[1].toPrecision(4)) : '';
+    this.draw_histogram();
   }
 }

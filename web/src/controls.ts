@@ -1,10 +1,10 @@
 // The panel's controls for settings: they show them, and report the user's changes.
 import { CellControls } from './cell';
-import { element, RadioGroup } from './dom';
+import { add_options, element, made, RadioGroup } from './dom';
 import { LensControls } from './lens';
-import type { Parameter } from './parameter';
 import { ParameterControls } from './parameter_controls';
-import type { Camera, Changes, EngineName, Facts, Move, Settings, SideName, ViewName } from './protocol';
+import type { Camera, Changes, Choices, EngineName, Facts, Move, Settings } from './protocol';
+import type { ViewName } from './settings';
 import { Slider } from './slider';
 
 export interface ControlActions {
@@ -41,10 +41,6 @@ export class Controls {
       const projection = this.projection.value as Camera['projection'];
       change({ camera: projection === 'orthographic' ? { projection, aperture: 0 } : { projection } });
     });
-    for (const button of document.querySelectorAll<HTMLButtonElement>('[data-side]'))
-      button.addEventListener('click', () =>
-        actions.move({ kind: 'look_from', side: button.dataset['side'] as SideName }),
-      );
     element('home').addEventListener('click', () => actions.move({ kind: 'home' }));
   }
 
@@ -65,9 +61,23 @@ export class Controls {
     this.actions.change(view === 'tree' ? { view, engine: 'cpu' } : { view });
   }
 
-  /** The library's table. */
-  build(parameters: Parameter[]): void {
-    this.parameters.build(parameters);
+  /** The view of this number in the list, from 1; false if there is none. */
+  set_view_at(number: number): boolean {
+    const view = this.view.options[number - 1]?.value;
+    if (view !== undefined) this.set_view(view as ViewName);
+    return view !== undefined;
+  }
+
+  /** The library's tables. */
+  build({ settings, views, projections, sides }: Choices): void {
+    this.parameters.build(settings);
+    add_options(this.view, views);
+    add_options(this.projection, projections.map((name) => ({ name })));
+    for (const side of sides) {
+      const button = made('button', { type: 'button', 'data-side': side }, side.charAt(0).toUpperCase() + side.slice(1));
+      button.addEventListener('click', () => this.actions.move({ kind: 'look_from', side }));
+      element('home').before(button);
+    }
   }
 
   /** The scene's properties. */

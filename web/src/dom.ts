@@ -7,6 +7,23 @@ export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   return found as T;
 }
 
+/** A new element with these attributes and this text. */
+export function made<Tag extends keyof HTMLElementTagNameMap>(
+  tag: Tag,
+  attributes: Record<string, string | number> = {},
+  text = '',
+): HTMLElementTagNameMap[Tag] {
+  const one = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) one.setAttribute(name, String(value));
+  one.textContent = text;
+  return one;
+}
+
+/** Adds choices to a list: names of the library, each with the text that people read. */
+export function add_options(list: HTMLElement, choices: { name: string; label?: string }[]): void {
+  list.append(...choices.map(({ name, label = name }) => made('option', { value: name }, label)));
+}
+
 /** The radio buttons of a group as one value. */
 export class RadioGroup {
   private readonly box: HTMLElement;
@@ -21,11 +38,4 @@ export class RadioGroup {
   set value(value: string) {
     for (const button of this.box.querySelectorAll<HTMLInputElement>('input[type=radio]')) button.checked = button.value === value;
   }
-}
-
-const whole = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
-
-/** 12345 as "12,345". */
-export function grouped(value: number): string {
-  return whole.format(value);
 }

@@ -1,5 +1,6 @@
 // The page inside another one: <bihive-viewer> (web/viewer) shows it in a frame, without its panel. How both speak with
 // each other stands in host.ts.
+import { element } from './dom';
 
 const asked = new URLSearchParams(location.search).get('embed');
 
@@ -20,6 +21,7 @@ export function show_parts({ panel, badge }: { panel: boolean; badge: boolean })
   root.classList.add('embedded');
   root.classList.toggle('embedded_alone', !panel);
   root.classList.toggle('without_badge', !badge);
+  element('badge').inert = !panel; // there it is a name alone
   // The reader's theme of the separate page would make the frame opaque: browsers draw a ground below it where light
   // meets dark.
   if (!panel) delete root.dataset['theme'];

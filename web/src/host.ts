@@ -81,7 +81,8 @@ export class Host {
   }
 
   private tell(told: Told): void {
-    if (parent !== window) parent.postMessage(told, location.origin);
+    // A frame without an origin, as in a notebook, has nobody to speak to.
+    if (parent !== window && location.origin !== 'null') parent.postMessage(told, location.origin);
   }
 
   private take(asked: Asked): void {

@@ -5,6 +5,7 @@ import { readable } from './field';
 import { speak } from './messages';
 import { minus, seen_at, type Vec3 } from './projection';
 import type { Camera, Measure, Picked } from './protocol';
+import { words } from './words';
 
 export interface InspectActions {
   /** Asks for the sphere there, in pixels of the page; picked() gets the answer under the id that is returned. */
@@ -13,6 +14,12 @@ export interface InspectActions {
   describe(spheres: number[]): void;
   camera(): Camera | null;
   look_at(eye: Vec3, look_at: Vec3): void;
+  /** A click on the picture: true if it meant something else. */
+  dismiss(): boolean;
+  /** Begins a row of the look for these spheres. */
+  select(selection: string): void;
+  /** Asks for the measure of these spheres in all frames. */
+  measure_frames(spheres: number[], name: string): void;
 }
 
 interface Place {
@@ -27,13 +34,34 @@ const most_pins = 4;
 const measures = ['', '', 'Distance', 'Angle', 'Dihedral']; // by the number of pins
 const closer = 0.5; // of the distance that is left after a double click
 
+// A text or a number as a value of a selection.
+const quoted = (value: number | string) => (typeof value === 'number' ? String(value) : `"${value.replaceAll('"', '""')}"`);
+
+/** Selections of more and more spheres around this one: itself, its residue, its chain, all of its kind. */
+export function selections_of({ sphere, attributes }: Picked): { label: string; selection: string }[] {
+  const test = (name: string) => {
+    const value = attributes[name];
+    return value === undefined || value === null || value === '' ? '' : `${name} ${quoted(value)}`;
+  };
+  const chain = test('chain');
+  const residue = attributes['resid'] === undefined ? '' : [chain, test('resid'), test('insertion')].filter(Boolean).join(' and ');
+  const kind = test('resname') || test('type') || test('element');
+  const all = [
+    { label: words.select.sphere, selection: `index ${sphere}` },
+    { label: words.select.residue, selection: residue },
+    { label: words.select.chain, selection: chain },
+    { label: words.select.kind, selection: kind },
+  ];
+  return all.filter(({ selection }) => selection !== '');
+}
+
 /** What it is, in a few words: "CA, ALA 28, chain A". */
 export function title_of({ sphere, attributes }: Picked): string {
   const text = (name: string) => (attributes[name] === undefined || attributes[name] === null ? '' : String(attributes[name]).trim());
   const atom = text('name') || text('element') || text('type');
   const residue = [text('resname'), text('resid')].filter(Boolean).join(' ');
-  const words = [atom, residue, text('chain') && `chain ${text('chain')}`].filter(Boolean);
-  return words.length > 0 ? words.join(', ') : `sphere ${sphere}`;
+  const parts = [atom, residue, text('chain') && `chain ${text('chain')}`].filter(Boolean);
+  return parts.length > 0 ? parts.join(', ') : `sphere ${sphere}`;
 }
 
 const in_title = ['name', 'resname', 'resid', 'chain'];
@@ -51,12 +79,15 @@ export class Inspector {
   private readonly tip = element('tip');
   private readonly box = element('pins');
   private readonly list = element('pin_list');
+  private readonly csv = element<HTMLButtonElement>('pins_csv');
+  private readonly select = element('pins_select');
   private readonly marks = document.getElementById('marks') as unknown as SVGSVGElement;
   private readonly asked = new Map<number, { why: 'name' | 'pin' | 'centre'; place: Place }>();
   private pins: Picked[] = [];
   private news = ''; // for those who hear the page, once the measure is known
   private unit = '';
   private timer = 0;
+  private has_frames = false;
 
   constructor(private readonly actions: InspectActions) {
     if (!has_host) this.listen(); // the page around the frame has events of its own
@@ -64,27 +95,38 @@ export class Inspector {
       this.set_pins([]);
       this.picture.focus();
     });
+    this.csv.addEventListener('click', () => {
+      const ids = this.pins.map(({ sphere }) => sphere);
+      actions.measure_frames(ids, `${measures[ids.length]!.toLowerCase()}_${ids.join('_')}`);
+    });
   }
 
   /** Another scene. */
-  begin(unit: string): void {
+  begin(unit: string, has_frames: boolean): void {
     this.unit = unit;
+    this.has_frames = has_frames;
     this.hide_tip();
     this.set_pins([]);
   }
 
-  /** Another frame of it: what is pinned has moved. */
+  /** Another frame of it, or another look: what is pinned has moved, or is hidden. */
   moved(): void {
     this.hide_tip();
     if (this.pins.length > 0) this.actions.describe(this.pins.map(({ sphere }) => sphere));
   }
 
   described(spheres: (Picked | null)[], measure: Measure): void {
+    if (spheres.length !== this.pins.length) return; // others were pinned meanwhile
     const known = spheres.filter((one) => one !== null);
-    if (known.length !== this.pins.length || !known.every(({ sphere }, i) => sphere === this.pins[i]!.sphere)) return;
-    const words = this.words_of(measure);
-    this.set_pins(known, words);
-    if (this.news) speak([this.news, words].filter(Boolean).join('. '));
+    if (!known.every(({ sphere }) => this.pins.some((pin) => pin.sphere === sphere))) return;
+    // A pinned sphere that is hidden now is pinned no longer.
+    if (known.length < this.pins.length) {
+      this.set_pins(known);
+      return void (known.length > 0 && this.moved());
+    }
+    const measured = this.words_of(measure);
+    this.set_pins(known, measured);
+    if (this.news) speak([this.news, measured].filter(Boolean).join('. '));
     this.news = '';
   }
 
@@ -161,7 +203,7 @@ export class Inspector {
       clearTimeout(pressing);
       if (!down || !event.isPrimary) return;
       // The second click of two takes the pin of the first one away.
-      this.ask(event.pointerType === 'touch' ? 'name' : 'pin', down);
+      if (!this.actions.dismiss()) this.ask(event.pointerType === 'touch' ? 'name' : 'pin', down);
       down = null;
     });
     for (const end of ['pointercancel', 'pointerleave'] as const)
@@ -224,6 +266,20 @@ export class Inspector {
     return `${name} ${readable(value)}${unit}${nearest_images ? ', of nearest images' : ''}`;
   }
 
+  // Of the sphere that was pinned last.
+  private show_selections(picked: Picked | undefined): void {
+    const buttons = picked ? selections_of(picked) : [];
+    const label = Object.assign(document.createElement('span'), { textContent: words.select.label });
+    this.select.replaceChildren(
+      label,
+      ...buttons.map(({ label: text, selection }) => {
+        const button = Object.assign(document.createElement('button'), { type: 'button', textContent: text, title: selection });
+        button.addEventListener('click', () => this.actions.select(selection));
+        return button;
+      }),
+    );
+  }
+
   private set_pins(pins: Picked[], measure = ''): void {
     this.pins = pins;
     this.box.hidden = pins.length === 0;
@@ -240,6 +296,8 @@ export class Inspector {
       }),
     );
     element('pins_measure').textContent = measure;
+    this.csv.hidden = !this.has_frames || pins.length < 2;
+    this.show_selections(pins.at(-1));
     this.draw();
   }
 }

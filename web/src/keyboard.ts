@@ -1,11 +1,10 @@
 // Moves the picture by keys, wherever the focus is, unless a control takes the key itself, and by the buttons for zoom.
 import { element } from './dom';
 import { remember, remembered } from './remembered';
-import type { EngineName, Move, ViewName } from './protocol';
+import type { EngineName, Move } from './protocol';
 
 const step_px = 24; // of the page
 const zoom_step = 1.15;
-const views: ViewName[] = ['shaded', 'recursion', 'traversal', 'normal', 'distance', 'id', 'tree'];
 const arrows: Record<string, [number, number]> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -17,7 +16,8 @@ export interface KeyActions {
   scale(): number;
   size(): { width: number; height: number };
   move(move: Move): void;
-  view(view: ViewName): void;
+  /** The view of this number, from 1; false if there is none. */
+  view(number: number): boolean;
   engine(): EngineName;
   set_engine(engine: EngineName): void;
   /** A key of the player; false if there is nothing to play. */
@@ -62,15 +62,13 @@ export function listen_for_keys(actions: KeyActions): void {
     if (event.key.length === 1 && event.key !== ' ' && !single.checked) return;
     const arrow = arrows[event.key];
     const zoom = { '+': zoom_step, '=': zoom_step, '-': 1 / zoom_step, _: 1 / zoom_step }[event.key];
-    const view = views[Number(event.key) - 1];
     if (arrow) {
       const px = step_px * actions.scale();
       actions.move({ kind: event.shiftKey ? 'pan' : 'orbit', dx: arrow[0] * px, dy: arrow[1] * px });
     } else if (zoom) actions.move(zoom_by(zoom, actions.size()));
     else if (event.key === 'Home') actions.move({ kind: 'home' });
-    else if (view) actions.view(view);
     else if (event.key === 'e' || event.key === 'E') actions.set_engine(actions.engine() === 'gpu' ? 'cpu' : 'gpu');
-    else if (!actions.play(event.key)) return;
+    else if (!actions.view(Number(event.key)) && !actions.play(event.key)) return;
     event.preventDefault();
   });
 }

@@ -1,36 +1,23 @@
 // The panel's appearance controls: style, colours of elements, background, the rows of selections with actions, and
 // controls for all spheres.
 import { ColourControls } from './colours';
-import { element, RadioGroup } from './dom';
-import type { Choices, ColouredBy, Facts, Look, LookFault, LookRow } from './protocol';
+import { add_options, element, RadioGroup } from './dom';
+import type { Action, Choices, ColouredBy, Facts, Histogram, Look, LookFault, LookRow } from './protocol';
+import type { LookRows } from './groups';
+import { fail } from './messages';
 import { build_style_tiles } from './style_tiles';
 
-// Actions with a value: its name, and an example of it. `label`: of the action, where its name says too little.
-interface ValueWords {
-  value: string;
-  hint: string;
-  list: string;
-  mode: string;
-  label?: string;
-}
-const value_words: Record<string, ValueWords> = {
-  colour: { value: 'a colour', hint: 'orange or #ff8800', list: 'colour_names', mode: 'text' },
-  'colour-by': { value: 'an attribute', hint: 'chain or b_factor:magma', list: 'colour_attributes', mode: 'text' },
-  opacity: { value: 'an opacity', hint: '0 to 1', list: '', mode: 'decimal' },
-  material: { value: 'a material', hint: 'metal', list: 'material_names', mode: 'text' },
-  'radius-scale': { value: 'a factor', hint: '0.5', list: '', mode: 'decimal', label: 'radius ×' },
-  outline: { value: 'a width', hint: '0 to 16', list: '', mode: 'decimal', label: 'outline px' },
-  crease: { value: 'an attribute', hint: 'chain', list: 'colour_attributes', mode: 'text' },
-  'legend-name': { value: 'a name', hint: 'ligand', list: '', mode: 'text', label: 'name in legend' },
-  clip: { value: 'a shape', hint: 'plane:0,0,1,0', list: '', mode: 'text' },
-};
-const is_complete = ({ action, value }: LookRow) => !(action in value_words) || value !== '';
-const waiting = ({ action }: LookRow) => `It waits for ${value_words[action]!.value}: ${value_words[action]!.hint}`;
-const option = (value: string, text: string) => Object.assign(document.createElement('option'), { value, textContent: text });
+// Lists of names for values.
+const lists: Record<Action['names'], string> = { none: '', colours: 'colour_names', materials: 'material_names', attributes: 'colour_attributes' };
+const actions = new Map<string, Action>();
+const is_complete = ({ action, value }: LookRow) => !actions.get(action)?.value || value !== '';
+const waiting = ({ action }: LookRow) => `It waits for ${actions.get(action)!.value}: ${actions.get(action)!.example}`;
+const in_list = (names: string[]) => names.map((name) => ({ name, label: '' }));
 
 // One row of controls.
 class RowControls {
   readonly box: HTMLElement;
+  by_list = false; // made by an entry of a list: there its fault would not be seen
   private readonly select: HTMLInputElement;
   private readonly action: HTMLSelectElement;
   private readonly value: HTMLInputElement;
@@ -58,6 +45,10 @@ class RowControls {
     this.box.querySelector('button')!.addEventListener('click', on_remove);
   }
 
+  set row_value(value: string) {
+    this.value.value = value;
+  }
+
   get row(): LookRow {
     return { select: this.select.value.trim(), action: this.action.value, value: this.value.value.trim() };
   }
@@ -74,17 +65,16 @@ class RowControls {
   }
 
   private fit_value(): void {
-    const words = value_words[this.action.value];
-    this.value.hidden = !words;
-    if (!words) return;
-    this.value.placeholder = words.hint;
-    this.value.inputMode = words.mode;
-    if (words.list) this.value.setAttribute('list', words.list);
-    else this.value.removeAttribute('list');
+    const action = actions.get(this.action.value);
+    this.value.hidden = !action?.value;
+    if (!action?.value) return;
+    this.value.placeholder = action.example;
+    this.value.inputMode = action.is_number ? 'decimal' : 'text';
+    this.value.setAttribute('list', lists[action.names]);
   }
 }
 
-export class LookControls {
+export class LookControls implements LookRows {
   private readonly style = new RadioGroup('style', (style) => this.change({ style }));
   private readonly colours = element<HTMLSelectElement>('element_colours');
   private readonly background = element<HTMLSelectElement>('background');
@@ -93,11 +83,14 @@ export class LookControls {
   private readonly of_all: ColourControls;
   private rows: RowControls[] = [];
   private sent: RowControls[] = []; // the rows of the last request, without incomplete ones
+  private last_of_list: RowControls | null = null;
   private made = 0;
   private file_of_spheres = true;
+  private clear = element<HTMLInputElement>('save_clear');
 
-  constructor(private readonly change: (changes: Partial<Look>) => void) {
-    this.of_all = new ColourControls(change);
+  constructor(private readonly change: (changes: Partial<Look>) => void, histogram_of: (attribute: string) => void) {
+    this.of_all = new ColourControls(change, histogram_of);
+    this.clear.addEventListener('change', () => change({ background: this.clear.checked ? 'none' : '' }));
     this.colours.addEventListener('change', () => change({ element_colours: this.colours.value }));
     this.background.addEventListener('change', () => this.change_background());
     this.background_colour.addEventListener('input', () => this.change_background());
@@ -105,11 +98,14 @@ export class LookControls {
   }
 
   /** The library's names. */
-  build({ styles, actions, materials }: Choices): void {
-    build_style_tiles(styles);
-    const list = element<HTMLTemplateElement>('look_row').content.querySelector('.action')!;
-    list.append(...actions.map((name) => option(name, value_words[name]?.label ?? name.replaceAll('-', ' '))));
-    element('material_names').append(...materials.map((name) => option(name, '')));
+  build(choices: Choices): void {
+    build_style_tiles(choices.styles);
+    this.of_all.build(choices);
+    for (const action of choices.actions) actions.set(action.name, action);
+    add_options(element<HTMLTemplateElement>('look_row').content.querySelector<HTMLElement>('.action')!, choices.actions);
+    add_options(element('material_names'), in_list(choices.materials));
+    add_options(element('colour_names'), in_list(choices.colours));
+    add_options(this.colours, choices.element_colours.map((name) => ({ name })));
   }
 
   /** What the scene has. */
@@ -120,9 +116,12 @@ export class LookControls {
     element('style_note').hidden = facts.takes_style;
     element('own_style').hidden = facts.is_file_of_spheres;
     element('element_colours_row').hidden = !facts.has_elements;
-    const options = (names: string[]) => names.map((name) => option(name, ''));
-    element('colour_attributes').replaceChildren(...options(facts.attributes));
-    element('selection_words').replaceChildren(...options(['all', ...facts.attributes.map((name) => `${name} `)]));
+    const replace = (id: string, names: string[]) => {
+      element(id).replaceChildren();
+      add_options(element(id), in_list(names));
+    };
+    replace('colour_attributes', facts.attributes);
+    replace('selection_words', ['all', ...facts.attributes.map((name) => `${name} `)]);
     element('look_names').textContent = facts.attributes.join(', ');
   }
 
@@ -131,10 +130,37 @@ export class LookControls {
     this.show_choices(look);
     this.of_all.show_ranges(coloured_by);
     this.rows = [];
+    this.last_of_list = null;
     this.list.replaceChildren();
     for (const row of look.rows) this.add(row);
     this.sent = [...this.rows];
     if (counts) this.show_counts(counts);
+  }
+
+  value(select: string, action: string): string | null {
+    return this.rows.find(({ row }) => row.select === select && row.action === action)?.row.value ?? null;
+  }
+
+  set(select: string, action: string, value: string | null): void {
+    const known = this.rows.find(({ row }) => row.select === select && row.action === action);
+    if (value === null) {
+      if (known) this.take_out(known);
+    } else if (known) known.row_value = value;
+    else {
+      this.last_of_list = this.add({ select, action, value });
+      this.last_of_list.by_list = true;
+    }
+    this.change_rows();
+  }
+
+  /** A new row for these spheres, which waits for its action. */
+  begin_row(select: string): void {
+    this.add({ select, action: 'colour', value: '' }).focus();
+    this.change_rows();
+  }
+
+  histogram(attribute: string, histogram: Histogram | null): void {
+    this.of_all.take_histogram(attribute, histogram);
   }
 
   private show_counts(counts: number[]): void {
@@ -148,6 +174,7 @@ export class LookControls {
     this.style.value = look.style === '' && this.file_of_spheres ? 'default' : look.style;
     this.colours.value = look.element_colours;
     this.of_all.show(look);
+    this.clear.checked = look.background === 'none';
     const is_colour = look.background !== '' && look.background !== 'none';
     this.background.value = is_colour ? 'colour' : look.background;
     this.background_colour.hidden = !is_colour;
@@ -158,9 +185,15 @@ export class LookControls {
   answer(look: Look, counts: number[], coloured_by: ColouredBy[] | null, fault: LookFault | null): void {
     this.show_choices(look);
     if (coloured_by) this.of_all.show_ranges(coloured_by);
-    if (fault) this.sent[fault.row]?.say(fault.message, true);
+    // Of all rows together, the last one is it.
+    const faulty = fault && (this.sent[fault.row] ?? this.last_of_list);
+    if (faulty?.by_list) {
+      if (fault!.row >= 0) fail(fault!.message); // others are told
+      this.take_out(faulty);
+      this.change_rows();
+    } else if (faulty) faulty.say(fault!.message, true);
     // The rows in the answer may be older than those with a fault.
-    else if (JSON.stringify(this.sent.map(({ row }) => row)) === JSON.stringify(look.rows)) this.show_counts(counts);
+    else if (!fault && JSON.stringify(this.sent.map(({ row }) => row)) === JSON.stringify(look.rows)) this.show_counts(counts);
   }
 
   private change_background(): void {
@@ -181,10 +214,16 @@ export class LookControls {
     return controls;
   }
 
-  private remove(controls: RowControls): void {
+  private take_out(controls: RowControls): number {
     const at = this.rows.indexOf(controls);
     this.rows.splice(at, 1);
+    if (this.last_of_list === controls) this.last_of_list = null;
     controls.box.remove();
+    return at;
+  }
+
+  private remove(controls: RowControls): void {
+    const at = this.take_out(controls);
     (this.rows[Math.min(at, this.rows.length - 1)] ?? { focus: () => element('look_add').focus() }).focus();
     this.change_rows();
   }

@@ -1,37 +1,43 @@
 // The page: it starts the worker, shows the worker's answers, and passes on the user's actions.
 import { Controls } from './controls';
-import { element, grouped } from './dom';
+import { Cards } from './cards';
+import { Cut } from './cut';
+import { element } from './dom';
 import { Engine } from './engine';
 import { Figures, is_figure } from './figure';
+import { Film } from './film';
 import type { NamedBlob } from './figure_protocol';
 import type { Past, Snapshot } from './history';
 import { Keeper, type Kept } from './kept';
 import { Inspector } from './inspect';
 import { listen_for_keys, listen_for_zoom } from './keyboard';
+import { GroupLists } from './groups';
 import { LookControls } from './look';
 import { ask_for, type Ask } from './ask';
 import { has_host, is_embedded, start_embedded } from './embedded';
 import { Host } from './host';
 import { document_of, has_state, link_of, reading_of, state_from, state_of, type State } from './link';
-import { data_inside, is_one_file, packed_module, page_with } from './one_file';
+import { data_inside, data_of_page, escaped, is_one_file, is_page, packed_module, page_with, type Inside } from './one_file';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
-import { start_panel } from './panel';
 import { PlayerBar } from './player';
 import { listen_for_pointers } from './pointer';
 import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Move, Reading, Settings, Source } from './protocol';
+import { ReadingControls } from './reading_controls';
 import { Saving } from './saving';
 import {
-  is_trajectory, listen_for_reading, listen_for_sources, show_source, wanted_files, wanted_source, with_reading,
+  build_sources, is_trajectory, kind_of, listen_for_sources, show_source, wanted_files, wanted_source, with_reading,
   type OwnFiles, type Wanted,
 } from './sources';
 import { describe_device } from './device';
 import { save } from './download';
 import { show_statistics } from './statistics';
 import { load_style_pictures } from './style_tiles';
-import { start_theme } from './theme';
+import { is_dark, start_theme } from './theme';
 import { ThesisDialog } from './thesis';
+import { Tripod } from './tripod';
 import { Undo } from './undo';
+import { grouped, words as texts } from './words';
 
 const most_pixels = 2560 * 1600; // of a picture on the screen
 const finest_ratio = 2; // finer pixels of a phone are invisible
@@ -57,6 +63,7 @@ let refused: OwnFiles | null = null; // the user's files that were opened last a
 let asked_columns = ''; // of the load that is awaited
 let asked: Ask | null = null; // the user's own file that a link was made for
 let address_reading: Reading | undefined;
+let measured: { name: string; lines: string[] } | null = null; // the table of frames that is being made
 let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
 // Loads by their ids: what holds once they are done. `past`: the scene's; 'same' after another reading of the shown one.
 const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean; past: Past | 'same' | null; undone: -1 | 1 | null }>();
@@ -68,8 +75,13 @@ let size = { width: 1, height: 1 };
 const engine = new Engine(
   {
     ready: ({ version, threads, gpu: found, choices }) => {
-      controls.build(choices.settings);
+      controls.build(choices);
       looks.build(choices);
+      build_sources(choices);
+      reading.build(choices.reading);
+      groups.build(choices.materials);
+      saving.limit(choices.most_pixels);
+      element('file_formats').textContent = choices.formats;
       undo.name_by(choices.settings);
       program_version = version;
       gpu = found;
@@ -92,13 +104,18 @@ const engine = new Engine(
       framed = now?.framed ?? true;
       show_facts(answer.facts);
       show_source(source);
+      reading.show(source, kind_of(source), facts);
       show_settings(answer.settings);
       controls.show_facts(answer.facts);
+      film.show_frames(answer.facts.frames);
       controls.show(answer.settings);
       look = answer.look;
       looks.show_facts(answer.facts);
-      inspector.begin(answer.facts.length_unit);
+      inspector.begin(answer.facts.length_unit, answer.facts.frames > 1);
+      groups.begin();
+      measured = null;
       looks.show(look, answer.counts, answer.coloured_by);
+      cut.begin();
       look_answered = look_serial;
       keeper?.show(source, chosen);
       if (now?.past !== 'same') undo.begin(snapshot()!, now?.past ?? null);
@@ -110,16 +127,18 @@ const engine = new Engine(
       busy(null);
       first_frame = false;
       saving.failed(id);
+      film.failed(id);
       const own = id === null ? null : (awaited.get(id)?.own ?? null);
       const undone = id === null ? null : (awaited.get(id)?.undone ?? null);
       if (undone) undo.take_back(undone);
       if (id !== null) awaited.delete(id);
       if (id === loading) {
         show_source(source);
+        reading.show(source, kind_of(source), facts);
         // Other columns may help, so the request stays in the panel, and a change reads the same file again.
         if (own && own !== chosen) {
           refused = own;
-          element<HTMLInputElement>('columns').value = asked_columns;
+          reading.keep_columns(asked_columns);
         }
       }
       fail(message);
@@ -138,6 +157,7 @@ const engine = new Engine(
       look = answer.look;
       look_answered = Math.max(look_answered, answer.serial);
       if (answer.serial === look_serial) looks.answer(look, answer.counts, answer.coloured_by, answer.fault);
+      look_changed();
       host.look_answered();
     },
     restored: (answer) => {
@@ -145,13 +165,29 @@ const engine = new Engine(
       controls.show(answer.settings);
       look = answer.look;
       looks.show(look, answer.counts, answer.coloured_by ?? []);
+      look_changed();
       for (const text of answer.notes) note(text);
+    },
+    contents: ({ contents, legend }) => {
+      groups.take(contents, legend);
+      if (contents) cut.take(contents);
+    },
+    histogram: ({ attribute, histogram }) => looks.histogram(attribute, histogram),
+    measured_frames: ({ lines, done, finished }) => {
+      if (!measured) return;
+      measured.lines.push(...lines);
+      busy(finished ? null : texts.measuring, done);
+      if (!finished) return;
+      const table = [`frame,time_ps,step,${measured.name}`, ...measured.lines].join('\n');
+      save(new Blob([`${table}\n`], { type: 'text/csv' }), `${file_stem()}-${measured.name.split('_')[0]}.csv`);
+      measured = null;
     },
     frame: (answer) => {
       show_settings(answer.settings);
       if (answer.serial === serial) controls.show(answer.settings);
       show_engine(answer.settings.engine);
       inspector.draw();
+      cut.draw();
       // Between two steps of a drag too, when all that was asked for is shown.
       if (answer.serial === serial && look_answered === look_serial) undo.note(snapshot()!);
       show_frame(answer.report, answer.width_px, answer.height_px);
@@ -168,6 +204,8 @@ const engine = new Engine(
     },
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
+    film_progress: ({ done }) => film.progress(done),
+    film: ({ film: file }) => film.done(file, file_stem()),
     picked: ({ id, picked }) => inspector.picked(id, picked) || host.picked(id, picked),
     described: ({ spheres, measure }) => inspector.described(spheres, measure),
     picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
@@ -212,11 +250,30 @@ function move_camera(move: Move): void {
 }
 
 const controls = new Controls({ change, move: move_camera });
-const looks = new LookControls((changes) => {
-  undo.act();
+function change_look(changes: Partial<Look>): void {
   picture.dataset['settled'] = 'false';
   engine.send({ type: 'look', serial: ++look_serial, changes });
-});
+}
+
+const looks = new LookControls(
+  (changes) => {
+    undo.act();
+    change_look(changes);
+    groups.show();
+    cut.show();
+  },
+  (attribute) => engine.send({ type: 'histogram', attribute }),
+);
+const groups = new GroupLists(looks, () => cards.show('show'));
+const reading = new ReadingControls(read_again);
+const cut = new Cut(looks, () => settings?.camera ?? null);
+const cards = new Cards((name) => cut.set_open(name === 'cut'));
+
+function look_changed(): void {
+  groups.show();
+  cut.show();
+  inspector.moved();
+}
 const saving = new Saving({
   draw: (width_px, height_px) => {
     const id = engine.new_id();
@@ -225,6 +282,16 @@ const saving = new Saving({
   },
   cancel: () => engine.send({ type: 'picture_cancel' }),
 });
+const film = new Film({
+  draw: (request) => {
+    const id = engine.new_id();
+    engine.send({ type: 'film', id, ...request, keep_in_view: framed });
+    return id;
+  },
+  cancel: () => engine.send({ type: 'picture_cancel' }),
+  size: () => saving.chosen(),
+});
+const tripod = new Tripod();
 const inspector = new Inspector({
   pick,
   describe: (spheres) => engine.send({ type: 'describe', spheres }),
@@ -232,6 +299,16 @@ const inspector = new Inspector({
   look_at: (eye, look_at) => {
     framed = false;
     change({ camera: { eye: [...eye], look_at: [...look_at] } });
+  },
+  dismiss: () => cards.dismiss(),
+  select: (selection) => {
+    cards.show('show');
+    looks.begin_row(selection);
+  },
+  measure_frames: (spheres, name) => {
+    measured = { name, lines: [] };
+    busy(texts.measuring, 0);
+    engine.send({ type: 'measure_frames', spheres, frames: facts?.frames ?? 1 });
   },
 });
 const player = new PlayerBar((action) => engine.send({ type: 'play', action }));
@@ -248,12 +325,26 @@ const undo = new Undo({ restore, changed: (past) => keeper?.keep(past) });
 let program_version = '';
 const device_json = () => describe_device(gpu.name, navigator.hardwareConcurrency, program_version);
 
+// The background of files of spheres in the dark theme: that of the page.
+const dark_ground = '#101317';
+const ground = () => (is_dark() && !has_host ? dark_ground : '');
+
+// Unless another one was chosen.
+function follow_theme(): void {
+  if (!look || !facts?.is_file_of_spheres || has_host) return;
+  const before = is_dark() ? '' : dark_ground;
+  if (look.background === before) change_look({ background: is_dark() ? dark_ground : '' });
+}
+
+const file_stem = () => (facts?.name ?? 'picture').replace(/.*\//, '').replace(/\.[^.]*$/, '');
+
 const snapshot = (): Snapshot | null => settings && look && { reading: source.reading ?? null, settings, look, framed };
 
 // Answers of the worker.
 
 function show_settings(now: Settings): void {
   settings = now;
+  tripod.draw(now.camera);
   host.settings(now);
 }
 
@@ -276,7 +367,11 @@ function show_gpu(): void {
 function show_facts(now: Facts): void {
   facts = now;
   const name = now.name.replace(/.*\//, '');
-  element('badge_name').textContent = name;
+  // The built-in ones have names for people in the list of samples.
+  const built_in = 'built_in' in source && document.querySelector(`#built_in option[value="${source.built_in}"]`);
+  element('badge_name').textContent = (built_in && built_in.textContent) || name;
+  const atoms = now.has_elements ? 'atoms' : 'spheres';
+  element('badge_more').textContent = `${grouped(now.spheres)} ${now.spheres === 1 ? atoms.slice(0, -1) : atoms} · ${now.format}`;
   document.title = `${name} · bihive`;
   const spheres = `${grouped(now.spheres)} ${now.spheres === 1 ? 'sphere' : 'spheres'}`;
   element('facts').textContent =
@@ -330,10 +425,11 @@ async function open(
     const named = blobs.map(({ name, content }) => ({ name, content }));
     awaited.set(id, { own, files: named, framed: wanted?.framed ?? !state.settings?.camera?.eye, past, undone });
     asked_columns = String(from.reading?.columns ?? '');
-    engine.send({ type: 'load', id, source: from, files, ...state });
+    engine.send({ type: 'load', id, source: from, files, ...state, ground: ground() });
   } catch (error) {
     busy(null);
     show_source(source);
+    reading.show(source, kind_of(source), facts);
     if (undone) undo.take_back(undone);
     fail((error as Error).message);
     host.failed(id, (error as Error).message);
@@ -378,6 +474,9 @@ async function open_files(files: File[]): Promise<void> {
 
 // What the user dropped or picked: pictures are compared, other files are opened.
 async function take_files(files: File[]): Promise<void> {
+  element('welcome').hidden = true;
+  const page = files.find(is_page);
+  if (page) return open_page(page);
   const pictures = files.filter(is_figure);
   const others = files.filter((file) => !is_figure(file));
   if (others.length > 0) await open_files(others);
@@ -460,13 +559,46 @@ async function copy_link(): Promise<void> {
   }
 }
 
+// A link to a server of this machine is nobody else's, and a file of the user's is in no link: then the code shows the page
+// that is saved as one file.
+async function copy_embed(): Promise<void> {
+  if (!settings) return;
+  const needs_page = is_one_file || 'file' in source || /^(localhost|127\.|\[::1\])/.test(location.hostname);
+  const page = `${file_stem()}.html`;
+  const link = new URL(needs_page ? `https://x/${encodeURIComponent(page)}` : link_of({ source, settings, look }));
+  link.searchParams.set('embed', '');
+  const address = needs_page ? `${link.pathname.slice(1)}${link.search}` : link.href;
+  const attributes = { src: address, title: document.title, width: '640', height: '480', style: 'border: 0', loading: 'lazy' };
+  const code = `<iframe ${Object.entries(attributes).map(([name, value]) => `${name}="${escaped(value)}"`).join(' ')}></iframe>`;
+  try {
+    await navigator.clipboard.writeText(code);
+    note(needs_page ? texts.embed.with_page(page) : texts.embed.copied);
+  } catch {
+    element('embed_help').textContent = code;
+  }
+}
+
 // All that is shown as one file, which opens without a server.
 async function save_page(): Promise<void> {
   if (!settings || !look) return;
   try {
     const file = await page_with({ source, settings, look }, shown_files);
-    save(file, `${(facts?.name ?? 'page').replace(/.*\//, '').replace(/\.[^.]*$/, '')}.html`);
+    save(file, `${file_stem()}.html`);
     note(`The page has ${(file.size / 1e6).toFixed(1)} MB. It opens by itself, without a network, on a phone too.`);
+  } catch (error) {
+    fail((error as Error).message);
+  }
+}
+
+const show_inside = ({ state, own }: Inside) =>
+  own ? open(wanted_files(own, state.source.reading), own.file.name, state, own) : open_source(state.source, state);
+
+// What a page holds that “Save as page” wrote.
+async function open_page(file: File): Promise<void> {
+  try {
+    const inside = await data_of_page(file);
+    if (!inside) throw new Error(`${file.name} is no page that bihive saved`);
+    await show_inside(inside);
   } catch (error) {
     fail((error as Error).message);
   }
@@ -475,10 +607,7 @@ async function save_page(): Promise<void> {
 // What this page, which is one file, holds.
 async function open_inside(): Promise<void> {
   try {
-    const inside = await data_inside();
-    const state = inside?.state ?? { source: { built_in: 'demo' }, settings: null, look: null };
-    if (inside?.own) await open(wanted_files(inside.own, state.source.reading), inside.own.file.name, state, inside.own);
-    else await open_source(state.source, state);
+    await show_inside((await data_inside()) ?? { state: { source: { built_in: 'demo' }, settings: null, look: null }, own: null });
   } catch (error) {
     fail((error as Error).message);
   }
@@ -497,6 +626,26 @@ async function started(): Promise<string> {
 const first_state = (start: string): State =>
   state_of(location.hash) ?? state_from(document_of(start)) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 
+// The first card: gone at the first touch.
+function welcome(shown: boolean): void {
+  const box = element('welcome');
+  box.hidden = !shown;
+  const hide = ({ target }: Event) => {
+    if (target instanceof Node && box.contains(target)) return;
+    box.hidden = true;
+    for (const touch of ['pointerdown', 'keydown', 'wheel', 'drop']) removeEventListener(touch, hide, true);
+  };
+  for (const touch of ['pointerdown', 'keydown', 'wheel', 'drop']) addEventListener(touch, hide, true);
+}
+
+function listen_for_samples(): void {
+  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-sample]'))
+    button.addEventListener('click', () => {
+      element('welcome').hidden = true;
+      void open_source({ built_in: button.dataset['sample']! });
+    });
+}
+
 // The missing features of the browser, or nothing.
 function lacking(): string {
   if (typeof WebAssembly === 'undefined') return 'WebAssembly';
@@ -505,8 +654,7 @@ function lacking(): string {
 }
 
 async function start(): Promise<void> {
-  start_theme();
-  start_panel();
+  start_theme(follow_theme);
   start_embedded();
   keep_for_offline();
   const lack = lacking();
@@ -514,7 +662,7 @@ async function start(): Promise<void> {
     fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`);
     element('badge').hidden = true;
     picture.setAttribute('aria-label', 'No picture');
-    element('panel').inert = true;
+    element('tools').inert = true;
     return;
   }
   const threads_asked = new URLSearchParams(location.search).get('threads');
@@ -536,18 +684,19 @@ async function start(): Promise<void> {
     scale: () => scale,
     size: () => size,
     move: move_camera,
-    view: (view) => controls.set_view(view),
+    view: (number) => controls.set_view_at(number),
     engine: () => settings?.engine ?? 'cpu',
     set_engine: (name) => controls.set_engine(name),
     play: (key) => player.key(key),
   });
   listen_for_sources((from) => {
+    element('welcome').hidden = true;
     forget_asked();
     void open_source(from);
   }, (files) => void take_files(files));
-  listen_for_reading(read_again);
   listen_for_launches((files) => void take_files(files));
   element('copy_link').addEventListener('click', () => void copy_link());
+  element('copy_embed').addEventListener('click', () => void copy_embed());
   element('save_page').addEventListener('click', () => void save_page());
   // A link to a file of one's own is nobody else's, and there is no server.
   if (is_one_file) for (const id of ['copy_link', 'link_help', 'url_form']) element(id).hidden = true;
@@ -580,10 +729,7 @@ async function start(): Promise<void> {
       read_again(reading);
       return loading;
     },
-    look: (changes) => {
-      picture.dataset['settled'] = 'false';
-      engine.send({ type: 'look', serial: ++look_serial, changes });
-    },
+    look: change_look,
     camera: (camera) => {
       framed = false;
       change({ camera });
@@ -596,6 +742,7 @@ async function start(): Promise<void> {
     },
   });
   if (has_host) return;
+  listen_for_samples();
 
   addEventListener('hashchange', () => {
     if (has_state(location.hash)) void open_state('');
@@ -603,6 +750,7 @@ async function start(): Promise<void> {
   if (is_one_file) return void (await open_inside());
   const text = await started();
   const kept = (await keeper?.open(text)) ?? null;
+  welcome(!kept && !is_embedded && !has_state(location.hash) && state_from(document_of(text)) === null);
   await (kept ? open_kept(kept) : open_state(text));
 }
 

@@ -21,6 +21,7 @@ export interface Page {
   zoom(factor: number, x_px: number, y_px: number): void;
   look_from(side: string): string;
   home(): void;
+  far_enough(camera: string, width_px: number, height_px: number): string;
   attach_gl(): string;
   detach_gl(lost: boolean): void;
   frame(budget_ms: number): string;
@@ -31,6 +32,10 @@ export interface Page {
   pick(x_px: number, y_px: number): string;
   sphere(id: number): string;
   measured(ids: number[]): string;
+  measured_in(frame: number, ids: number[]): string;
+  contents(): string;
+  legend(): string;
+  histogram(attribute: string, bins: number): string;
   begin_picture(width_px: number, height_px: number, samples_per_pixel: number): string;
   step_picture(budget_ms: number): string;
   take_picture(): string;

@@ -39,8 +39,8 @@ interface Data {
   is_packed: boolean;
 }
 
-function taken(id: string): Data | null {
-  const place = here(id);
+function taken(id: string, page: Document): Data | null {
+  const place = page.getElementById(id);
   const text = place?.textContent ?? '';
   if (!place || text === '') return null;
   const { name = '', packing = '' } = place.dataset;
@@ -49,7 +49,16 @@ function taken(id: string): Data | null {
   return { text, name, is_packed: packing === 'gzip' };
 }
 
-const data = is_one_file ? { state: taken(data_ids.state), file: taken(data_ids.file), trajectory: taken(data_ids.trajectory) } : null;
+interface DataOfPage {
+  state: Data | null;
+  file: Data | null;
+  trajectory: Data | null;
+}
+
+const all_taken = (page: Document): DataOfPage => ({
+  state: taken(data_ids.state, page), file: taken(data_ids.file, page), trajectory: taken(data_ids.trajectory, page),
+});
+const data = is_one_file ? all_taken(document) : null;
 const own_text = is_one_file ? `<!doctype html>\n${document.documentElement.outerHTML}\n` : '';
 
 async function file_of({ text, name, is_packed }: Data): Promise<File> {
@@ -57,9 +66,14 @@ async function file_of({ text, name, is_packed }: Data): Promise<File> {
   return new File([is_packed ? await through(content, new DecompressionStream('gzip')) : content], name);
 }
 
-/** What the file shows first: a state, and the files that it needs. */
-export async function data_inside(): Promise<{ state: State; own: OwnFiles | null } | null> {
-  if (!data?.state) return null;
+/** A state, and the files that it needs. */
+export interface Inside {
+  state: State;
+  own: OwnFiles | null;
+}
+
+async function inside_of(data: DataOfPage): Promise<Inside | null> {
+  if (!data.state) return null;
   const state = state_from(document_of(await (await file_of(data.state)).text()));
   if (!state) throw new Error('This page is damaged: it does not hold a scene');
   if (!('file' in state.source)) return { state, own: null };
@@ -69,6 +83,20 @@ export async function data_inside(): Promise<{ state: State; own: OwnFiles | nul
   data.file = data.trajectory = null; // they are large
   return { state, own };
 }
+
+/** What this file shows first. */
+export const data_inside = async (): Promise<Inside | null> => data && inside_of(data);
+
+/** What another page that is one file shows first; null: it holds no data, or is another kind of page. */
+export async function data_of_page(file: File): Promise<Inside | null> {
+  const text = await file.text();
+  if (!text.includes(`<script id="${engine_ids.module}"`)) return null;
+  // The data alone: the browser would complain of styles, which the policy of this page does not allow that one.
+  const places = Object.values(data_ids).map((id) => new RegExp(`<script id="${id}"[^>]*>[^<]*</script>`).exec(text)?.[0] ?? '');
+  return inside_of(all_taken(new DOMParser().parseFromString(places.join('\n'), 'text/html')));
+}
+
+export const is_page = ({ name }: File): boolean => /\.html?$/i.test(name);
 
 /** The worker of this file, and the module, which the worker unpacks. */
 export const worker_inside = (): Worker =>
@@ -85,7 +113,7 @@ async function empty_page(): Promise<string> {
   return response.text();
 }
 
-const escaped = (text: string) => text.replace(/[&<>"]/g, (one) => `&#${one.charCodeAt(0)};`);
+export const escaped = (text: string) => text.replace(/[&<>"]/g, (one) => `&#${one.charCodeAt(0)};`);
 
 async function filled(id: string, content: Blob, name: string): Promise<string> {
   const packed = await through(content, new CompressionStream('gzip'));

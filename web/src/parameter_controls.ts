@@ -1,5 +1,6 @@
 // The controls of a picture's parameters: one for each row of the table that has a label, in the element of its group,
 // [data-parameters].
+import { made } from './dom';
 import { Field, readable } from './field';
 import { is_beyond, is_in_range, is_off, note_of, slider_words, type Id, type Parameter, type Value } from './parameter';
 import type { Changes, Settings } from './protocol';
@@ -17,13 +18,6 @@ const largest = 3e38; // means any number
 
 const typographic = (text: string) => text.replace(/\s+/g, ' ').replaceAll("'", '’');
 const sentence = (text: string) => typographic(text.charAt(0).toUpperCase() + text.slice(1));
-
-function made<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, attributes: Attributes, text = ''): HTMLElementTagNameMap[Tag] {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
-  element.textContent = text;
-  return element;
-}
 
 export class ParameterControls {
   private rows: Parameter[] = [];

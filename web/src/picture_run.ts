@@ -26,7 +26,13 @@ export class PictureRun {
   ) {}
 
   /** The picture as a PNG file, or null if cancelled. Throws BadInput if it cannot be drawn. */
-  async draw({ width_px, height_px, samples_per_pixel }: PictureSize): Promise<Blob | null> {
+  async draw(size: PictureSize): Promise<Blob | null> {
+    const drawn = await this.draw_pixels(size);
+    return drawn && png_of(this.page.pixels(), drawn.width, drawn.height, drawn.channels);
+  }
+
+  /** The same; the module's pixels() are it. */
+  async draw_pixels({ width_px, height_px, samples_per_pixel }: PictureSize): Promise<Drawn | null> {
     value_of(this.page.begin_picture(width_px, height_px, samples_per_pixel));
     for (let done = 0; done < 1; ) {
       done = value_of<{ done: number }>(this.page.step_picture(step_ms)).done;
@@ -37,8 +43,7 @@ export class PictureRun {
       if (this.reason) throw this.reason;
       return null;
     }
-    const { width, height, channels } = value_of<Drawn>(this.page.take_picture());
-    return png_of(this.page.pixels(), width, height, channels);
+    return value_of<Drawn>(this.page.take_picture());
   }
 
   /** Ends it before the next step; with a reason it is an error. */

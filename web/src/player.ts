@@ -1,5 +1,6 @@
 // The bar below the picture of a file with several frames: time line, play, step, speed and loop.
-import { element, grouped } from './dom';
+import { element } from './dom';
+import { grouped } from './words';
 import type { PlayAction, PlayerState } from './protocol';
 
 export class PlayerBar {

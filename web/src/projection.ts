@@ -14,11 +14,16 @@ const unit = (a: Vec3): Vec3 => {
   return [a[0] / by, a[1] / by, a[2] / by];
 };
 
-/** Null: behind the eye. As PixelPlaces of scene/camera.h. */
-export function seen_at(camera: Camera, width: number, height: number, point: Vec3): { x: number; y: number } | null {
+/** Of the picture, each of length 1. */
+export function directions_of(camera: Camera): { right: Vec3; down: Vec3; forward: Vec3 } {
   const forward = unit(minus(camera.look_at, camera.eye));
   const right = unit(cross(forward, camera.up));
-  const down = cross(forward, right);
+  return { right, down: cross(forward, right), forward };
+}
+
+/** Null: behind the eye. As PixelPlaces of scene/camera.h. */
+export function seen_at(camera: Camera, width: number, height: number, point: Vec3): { x: number; y: number } | null {
+  const { right, down, forward } = directions_of(camera);
   const from_eye = minus(point, camera.eye);
   const along = dot(from_eye, forward);
   if (along <= 0) return null;

@@ -1,18 +1,17 @@
 // The messages between the page and its worker. The worker owns the C++ module and both canvases; the page owns the
 // controls. Numbers and names of settings are those of the C++ library.
 import type { Parameter } from './parameter';
-import type { PictureSettings, ReadingId } from './settings';
+import type { ReadingRow } from './reading_controls';
+import type { PictureSettings, Projection, ReadingId, ViewName } from './settings';
 
 export type EngineName = 'cpu' | 'gpu';
-export type ViewName = 'shaded' | 'recursion' | 'traversal' | 'normal' | 'distance' | 'id' | 'tree';
-export type SideName = 'front' | 'back' | 'left' | 'right' | 'top' | 'bottom' | 'iso';
 
 export interface Camera {
   eye: [number, number, number];
   look_at: [number, number, number];
   up: [number, number, number];
   fov_deg: number;
-  projection: 'perspective' | 'orthographic';
+  projection: Projection;
   shorter_side: number;
   aperture: number;
   focus: number; // 0: where look_at is
@@ -47,6 +46,7 @@ export interface Look {
   nan_colour: string;
   crease: string;
   floor: string;
+  floor_up: [number, number, number] | null; // its normal; null: up of the file's camera, or y
   rows: LookRow[];
 }
 
@@ -85,6 +85,39 @@ export interface Facts {
   copies: [number, number, number]; // along the cell's vectors, as the input asks for
   attributes: string[];
   length_unit: string; // empty: unknown
+}
+
+/** Spheres with a name in common (viewer/contents.h). */
+export interface Group {
+  of: string;
+  name: string;
+  select: string;
+  count: number;
+}
+
+/** Groups of the scene, and its bounding box. */
+export interface Contents {
+  groups: Group[];
+  low: [number, number, number];
+  high: [number, number, number];
+}
+
+/** An attribute that colours the spheres, with its categories, or its numbers from low to high. */
+export interface LegendKey {
+  title: string;
+  entries: { name: string; colour: string; select: string }[];
+  scale: { least: number; most: number; logarithmic: boolean; colours: string[] } | null;
+}
+
+export interface Histogram {
+  least: number;
+  most: number;
+  counts: number[];
+}
+
+export interface MapColours {
+  name: string;
+  colours: string[]; // from low to high; none of a map for categories
 }
 
 export interface FrameReport {
@@ -141,8 +174,21 @@ export type PlayAction = { toggle: true } | { step: number } | { frame: number }
 export type Move =
   | { kind: 'orbit' | 'pan'; dx: number; dy: number }
   | { kind: 'zoom'; factor: number; x: number; y: number }
-  | { kind: 'look_from'; side: SideName }
+  | { kind: 'look_from'; side: string }
   | { kind: 'home' };
+
+/** What a turn is about: the picture's up, or an axis of the world. */
+export type TurnAxis = 'up' | 'x' | 'y' | 'z';
+
+/** A film: once around in this number of pictures, or, without a turn, the first `frames` frames of the file. */
+export interface FilmRequest {
+  width_px: number;
+  height_px: number;
+  frames: number;
+  frames_per_second: number;
+  turn: TurnAxis | null;
+  keep_in_view: boolean; // the camera goes as far away as the whole scene needs
+}
 
 /** The sphere at a place of the picture (viewer/pick.h). */
 export interface Picked {
@@ -160,10 +206,11 @@ export interface Measure {
   nearest_images: boolean; // of a periodic cell
 }
 
-/** Messages to the worker. `id` is returned with the answer. `packed`: the module, by LZMA. */
+/** Messages to the worker. `id` is returned with the answer. `packed`: the module, by LZMA. `ground`: the background of files
+ * of spheres without a look; empty: their own. */
 export type Request =
   | { type: 'start'; threads: boolean; base: string; embedded: boolean; wasm: WebAssembly.Module | null; packed: Uint8Array<ArrayBuffer> | null; gpu_canvas: OffscreenCanvas; cpu_canvas: OffscreenCanvas }
-  | { type: 'load'; id: number; source: Source; files: Files | null; settings: Changes | null; look: Partial<Look> | null }
+  | { type: 'load'; id: number; source: Source; files: Files | null; settings: Changes | null; look: Partial<Look> | null; ground: string }
   | { type: 'set'; serial: number; changes: Changes }
   | { type: 'look'; serial: number; changes: Partial<Look> }
   | { type: 'resize'; width_px: number; height_px: number }
@@ -171,8 +218,11 @@ export type Request =
   | { type: 'restore'; serial: number; settings: Settings; look: Look } // of the same scene
   | { type: 'pick'; id: number; x_px: number; y_px: number }
   | { type: 'describe'; spheres: number[] } // by their ids
+  | { type: 'measure_frames'; spheres: number[]; frames: number }
+  | { type: 'histogram'; attribute: string }
   | { type: 'picture'; id: number; width_px: number; height_px: number }
-  | { type: 'picture_cancel' }
+  | ({ type: 'film'; id: number } & FilmRequest)
+  | { type: 'picture_cancel' } // and of a film
   | { type: 'play'; action: PlayAction }
   | { type: 'thesis'; quick: boolean; device: string; saved: string } // device: JSON; saved: of a run to be continued, or ''
   | { type: 'shown_frames'; seconds: number; device: string }
@@ -193,8 +243,13 @@ export type Answer =
   | { type: 'statistics'; json: string }
   | { type: 'picked'; id: number; picked: Picked | null }
   | { type: 'described'; spheres: (Picked | null)[]; measure: Measure }
+  | { type: 'measured_frames'; lines: string[]; done: number; finished: boolean }
+  | { type: 'histogram'; attribute: string; histogram: Histogram | null }
+  | { type: 'contents'; contents: Contents | null; legend: LegendKey[] } // null: as before
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
+  | { type: 'film_progress'; done: number }
+  | { type: 'film'; film: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }
   | { type: 'thesis_saved'; result: string } // after each configuration: lets a later visit continue
   | { type: 'shown_progress'; progress: ShownProgress }
@@ -202,12 +257,39 @@ export type Answer =
   | { type: 'thesis_failed'; message: string }
   | { type: 'thesis_done'; cancelled: boolean; result: string; charts: string[] };
 
-/** The library's own names. */
+export interface BuiltIn {
+  name: string;
+  label: string;
+  kind: 'file' | 'scenario' | 'fixed';
+}
+
+/** What a row of the look does, and its value, if it has one. */
+export interface Action {
+  name: string;
+  label: string;
+  value: string;
+  example: string;
+  names: 'none' | 'colours' | 'materials' | 'attributes';
+  is_number: boolean;
+}
+
+/** What lists offer, from the library's tables (viewer/choices.h). */
 export interface Choices {
+  built_ins: BuiltIn[];
   styles: { name: string; description: string }[];
-  actions: string[];
+  actions: Action[];
   materials: string[];
+  lights: string[];
+  colours: string[];
+  element_colours: string[];
+  sides: string[];
+  projections: Projection[];
+  views: { name: ViewName; label: string }[];
+  maps: MapColours[];
   settings: Parameter[];
+  reading: ReadingRow[];
+  formats: string; // their names in a sentence
+  most_pixels: number; // of a picture that memory holds
 }
 
 /** The available GPU. */

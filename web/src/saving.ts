@@ -9,6 +9,8 @@ export interface SavingActions {
   cancel(): void;
 }
 
+const most_side = 16384; // as the library's
+
 type Size = (screen: { width: number; height: number }) => { width: number; height: number };
 
 const times = (factor: number): Size => ({ width, height }) => ({ width: factor * width, height: factor * height });
@@ -41,6 +43,7 @@ export class Saving {
   private readonly copy = element<HTMLButtonElement>('save_copy');
   private readonly cancel = element<HTMLButtonElement>('save_cancel');
   private screen = { width: 1, height: 1 };
+  private most_pixels = Infinity;
   private id = 0; // of the awaited picture
   private to_clipboard: ((picture: Blob | null) => void) | null = null; // where the awaited one goes; null: into a file
   private forget_cancelled = () => {}; // the words about the last one
@@ -56,6 +59,12 @@ export class Saving {
     this.copy.hidden = !can_copy();
   }
 
+  /** Of a picture that memory holds. */
+  limit(most_pixels: number): void {
+    this.most_pixels = most_pixels;
+    this.fit();
+  }
+
   /** The size of the picture on the screen. */
   propose(width: number, height: number): void {
     this.screen = { width, height };
@@ -63,6 +72,11 @@ export class Saving {
   }
 
   private fit(): void {
+    for (const [i, [, size]] of sizes.entries()) {
+      const { width, height } = size?.(this.screen) ?? { width: 0, height: 0 };
+      this.size.options[i]!.disabled = width * height > this.most_pixels || Math.max(width, height) > most_side;
+    }
+    if (this.size.selectedOptions[0]?.disabled) this.size.selectedIndex = 0;
     const [, size] = sizes[this.size.selectedIndex]!;
     if (!size) return;
     const { width, height } = size(this.screen);
@@ -70,13 +84,20 @@ export class Saving {
     this.height.value = String(height);
   }
 
+  /** The wanted size; null: a field has none. */
+  chosen(): { width: number; height: number } | null {
+    if (!this.width.reportValidity() || !this.height.reportValidity()) return null;
+    return { width: Number(this.width.value), height: Number(this.height.value) };
+  }
+
   private begin(): boolean {
-    if (!this.width.reportValidity() || !this.height.reportValidity()) return false;
+    const size = this.chosen();
+    if (!size) return false;
     this.forget_cancelled();
     this.to_clipboard = null;
     this.set_running(true);
     busy('Drawing the picture');
-    this.id = this.actions.draw(Number(this.width.value), Number(this.height.value));
+    this.id = this.actions.draw(size.width, size.height);
     return true;
   }
 

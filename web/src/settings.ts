@@ -33,7 +33,9 @@ export interface PictureSettings {
 
 /** How a file is read; src/bihive/io/reading_settings.cpp. */
 // prettier-ignore
-export const reading_ids = ['radius', 'radius_scale', 'frame', 'smooth', 'recenter', 'assembly', 'columns', 'replicate', 'cell_vectors', 'cell_origin', 'periodic', 'no_periodic', 'wrap', 'wrap_molecules', 'unwrap'] as const;
-// prettier-ignore
-export const colour_maps = ['viridis', 'magma', 'plasma', 'inferno', 'cividis', 'turbo', 'greys', 'coolwarm', 'RdBu', 'okabe-ito'] as const;
+export const reading_ids = ['radius', 'radius_scale', 'frame', 'smooth', 'recenter', 'assembly', 'columns', 'replicate', 'cell_vectors', 'cell_origin', 'periodic', 'no_periodic', 'wrap', 'wrap_molecules', 'unwrap', 'exposed_area'] as const;
 export type ReadingId = (typeof reading_ids)[number];
+
+/** src/bihive/scene/names.h */
+export type ViewName = 'shaded' | 'recursion' | 'traversal' | 'normal' | 'distance' | 'id' | 'tree';
+export type Projection = 'perspective' | 'orthographic';

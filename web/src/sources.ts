@@ -1,7 +1,7 @@
 // The sources of scenes: built-in names, files that are picked or dropped, addresses on this server.
-import { element } from './dom';
+import { add_options, element } from './dom';
 import { busy } from './messages';
-import type { Files, Reading, Source } from './protocol';
+import type { BuiltIn, Choices, Files, Reading, Source } from './protocol';
 
 /** A scene to load, and its files unless it is built in. */
 export interface Wanted {
@@ -72,23 +72,16 @@ export async function wanted_files({ file, trajectory }: OwnFiles, reading?: Rea
 /** By the ending: a trajectory of coordinates alone, which needs the file of the spheres. */
 export const is_trajectory = ({ name }: File): boolean => /\.(dcd|xtc|trr)$/i.test(name);
 
-const reading_inputs = () =>
-  (['radius', 'radius_scale', 'columns'] as const).map((id) => element<HTMLInputElement>(id)) as [
-    radius: HTMLInputElement, scale: HTMLInputElement, columns: HTMLInputElement,
-  ];
+let built_ins: BuiltIn[] = [];
 
-/** Calls `read` with the radii and columns that the panel asks for, and whether the columns are what has changed. */
-export function listen_for_reading(read: (reading: Reading | undefined, columns_changed: boolean) => void): void {
-  const [radius, scale, columns] = reading_inputs();
-  for (const input of [radius, scale, columns])
-    input.addEventListener('change', () => {
-      if (!radius.reportValidity() || !scale.reportValidity()) return;
-      const reading: Reading = {};
-      if (radius.value !== '') reading.radius = Number(radius.value);
-      if (scale.value !== '') reading.radius_scale = Number(scale.value);
-      if (columns.value.trim() !== '') reading.columns = columns.value.trim();
-      read(Object.keys(reading).length > 0 ? reading : undefined, input === columns);
-    });
+/** What the parameters of a source change. */
+export const kind_of = (source: Source): BuiltIn['kind'] =>
+  'built_in' in source ? (built_ins.find(({ name }) => name === source.built_in)?.kind ?? 'fixed') : 'file';
+
+/** The library's names. */
+export function build_sources(choices: Choices): void {
+  built_ins = choices.built_ins;
+  add_options(element('built_in'), built_ins);
 }
 
 /** Calls `open` with files picked or dropped anywhere, and with sources chosen in the panel. */
@@ -96,7 +89,7 @@ export function listen_for_sources(open_source: (source: Source) => void, open_f
   const built_in = element<HTMLSelectElement>('built_in');
   const count = element<HTMLInputElement>('count');
   const choose = () => {
-    const scenario = built_in.value.startsWith('scenario');
+    const scenario = kind_of({ built_in: built_in.value }) === 'scenario';
     element('count_row').hidden = !scenario;
     if (scenario && !count.reportValidity()) return;
     open_source(scenario ? { built_in: built_in.value, count: Number(count.value) } : { built_in: built_in.value });
@@ -135,16 +128,7 @@ export function listen_for_sources(open_source: (source: Source) => void, open_f
 
 /** Shows in the panel where the scene came from. */
 export function show_source(source: Source): void {
-  const name = 'built_in' in source ? source.built_in : '';
-  element<HTMLSelectElement>('built_in').value = name;
-  element('count_row').hidden = !name.startsWith('scenario');
-  const [radius, scale, columns] = reading_inputs();
-  radius.value = String(source.reading?.radius ?? '');
-  scale.value = String(source.reading?.radius_scale ?? '');
-  columns.value = String(source.reading?.columns ?? '');
-  // The thesis's scenes have their own radii: scenarios take another one.
-  radius.disabled = name === 'four-spheres';
-  element('radius_scale_row').hidden = name !== '' && name !== 'demo';
-  element('columns_row').hidden = element('columns_help').hidden = name !== '' && name !== 'demo';
+  element<HTMLSelectElement>('built_in').value = 'built_in' in source ? source.built_in : '';
+  element('count_row').hidden = kind_of(source) !== 'scenario';
   if ('built_in' in source && source.count) element<HTMLInputElement>('count').value = String(source.count);
 }

@@ -1,5 +1,6 @@
 // The table of both trees' statistics (the library's statistics, as `bihive stats --json` prints them).
-import { element, grouped } from './dom';
+import { element } from './dom';
+import { grouped } from './words';
 
 interface Range {
   min: number;

@@ -15,6 +15,7 @@ const words: Record<string, string> = {
   nan_colour: 'colour of unknown numbers',
   crease: 'lines between',
   floor: 'floor',
+  floor_up: 'floor',
   rows: 'looks of selections',
 };
 

@@ -1,10 +1,11 @@
 // The worker: the C++ module, the frame loop, and the answers to the page.
 import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
+import { FilmRun } from './film_run';
 import { GlCanvas } from './gl_canvas';
 import { unpacked_lzma } from './lzma';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, Choices, ColouredBy, Facts, FrameReport, Look, Measure, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
+  Answer, Changes, Choices, ColouredBy, Contents, Facts, FrameReport, Histogram, LegendKey, Look, Measure, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
 } from './protocol';
 import { UserFiles } from './user_files';
 
@@ -26,11 +27,14 @@ let wanted_look: Partial<Look> | null = null;
 let look_serial = 0; // of the last request in wanted_look
 let moves: Move[] = [];
 let statistics_wanted = false;
+let contents_wanted = false;
+let legend_wanted = false;
+let scenes = 0; // loaded
 let player_words = ''; // the last state of the player that was sent, as JSON
 let frame_pending = false;
 let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
-let saving: PictureRun | null = null;
+let saving: PictureRun | FilmRun | null = null;
 let thesis: { device: string; cancelled: boolean; saved: number } | null = null; // saved: configurations
 let thesis_run: ThesisRun | null = null;
 
@@ -157,6 +161,7 @@ function apply_look(): void {
   } finally {
     const words = fault && { row: fault.row, message: fault.message };
     send({ type: 'look', serial: look_serial, look: look(), counts, coloured_by, fault: words });
+    legend_wanted = true;
   }
   if (fault && fault.row < 0) throw fault;
   statistics_wanted = true;
@@ -236,6 +241,7 @@ async function next_frame(): Promise<void> {
       send({ type: 'frame', report, serial, settings: now, width_px: size_px.width, height_px: size_px.height });
     const { playing, shown } = JSON.parse(player_words) as PlayerState;
     if (!report.settled || playing || !shown) ask_for_frame();
+    else tell_contents();
   });
   if (statistics_wanted) {
     statistics_wanted = false;
@@ -282,6 +288,14 @@ function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   return { notes, counts: looked?.counts ?? null, coloured_by: looked?.coloured_by ?? null };
 }
 
+// Passes over all spheres, so they wait until the picture is at rest.
+function tell_contents(): void {
+  if (!contents_wanted && !legend_wanted) return;
+  const contents = contents_wanted ? value_of<Contents>(page.contents()) : null;
+  contents_wanted = legend_wanted = false;
+  send({ type: 'contents', contents, legend: value_of<LegendKey[]>(page.legend()) });
+}
+
 async function load(request: Request & { type: 'load' }): Promise<void> {
   let loaded: Loaded;
   const reading = JSON.stringify(request.source.reading ?? {});
@@ -302,13 +316,15 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   moves = [];
   wanted_look = null;
   has_scene = true;
+  ++scenes;
   const { id, source } = request;
-  const chosen = choose(request.settings ?? {}, request.look);
+  const ground = request.ground !== '' && loaded.facts.is_file_of_spheres ? { background: request.ground } : null;
+  const chosen = choose(request.settings ?? {}, request.look ?? ground);
   const coloured_by = chosen.coloured_by ?? loaded.coloured_by;
   const notes = [...loaded.facts.warnings, ...chosen.notes];
   send({ type: 'loaded', id, source, facts: loaded.facts, settings: settings(), look: look(), counts: chosen.counts, coloured_by, notes });
   send_player();
-  statistics_wanted = true;
+  statistics_wanted = contents_wanted = true;
   ask_for_frame();
 }
 
@@ -319,7 +335,7 @@ function restore(request: Request & { type: 'restore' }): void {
   serial = request.serial;
   const { notes, counts, coloured_by } = choose(request.settings, request.look);
   send({ type: 'restored', settings: settings(), look: look(), counts, coloured_by, notes });
-  statistics_wanted = true;
+  statistics_wanted = legend_wanted = true;
   ask_for_frame();
 }
 
@@ -336,16 +352,44 @@ function describe({ spheres }: Request & { type: 'describe' }): void {
   if (has_scene) send({ type: 'described', spheres: spheres.map(of_one), measure: value_of<Measure>(page.measured(spheres)) });
 }
 
-// A picture to be saved. No frames are drawn meanwhile.
-async function picture(request: Request & { type: 'picture' }): Promise<void> {
+const most_lines = 100; // in one message
+const histogram_bins = 48;
+
+// The measure of every frame. Other requests are answered between two frames; another scene ends it.
+async function measure_frames({ spheres, frames }: Request & { type: 'measure_frames' }): Promise<void> {
+  const scene = scenes;
+  let lines: string[] = [];
+  for (let frame = 0; frame < frames; ++frame) {
+    lines.push(value_of<{ line: string }>(page.measured_in(frame, spheres)).line);
+    const finished = frame + 1 === frames;
+    if (!finished && lines.length < most_lines) continue;
+    send({ type: 'measured_frames', lines, done: (frame + 1) / frames, finished });
+    lines = [];
+    await new Promise((resolve) => setTimeout(resolve));
+    if (scene !== scenes) return;
+  }
+}
+
+// Of a text there is none.
+function histogram({ attribute }: Request & { type: 'histogram' }): void {
+  let found: Histogram | null = null;
+  try {
+    found = has_scene ? value_of<Histogram>(page.histogram(attribute, histogram_bins)) : null;
+  } catch (error) {
+    if (!(error instanceof BadInput)) throw error;
+  }
+  send({ type: 'histogram', attribute, histogram: found });
+}
+
+// A picture or a film to be saved. No frames are drawn meanwhile.
+async function save<Run extends PictureRun | FilmRun>(run: Run, draw: (run: Run) => Promise<Answer>): Promise<void> {
   if (!has_scene || thesis || saving) throw new BadInput('There is no picture to be saved just now');
   apply_moves();
   apply_look();
   apply_changes();
-  saving = new PictureRun(page, (done) => send({ type: 'picture_progress', done }));
+  saving = run;
   try {
-    const { samples_per_pixel } = settings();
-    send({ type: 'picture', picture: await saving.draw({ ...request, samples_per_pixel }) });
+    send(await draw(run));
   } catch (error) {
     throw on_lost_gpu(settings()) ? new BadInput(picture_lost) : error;
   } finally {
@@ -353,6 +397,15 @@ async function picture(request: Request & { type: 'picture' }): Promise<void> {
     ask_for_frame();
   }
 }
+
+const picture = (request: Request & { type: 'picture' }) =>
+  save(new PictureRun(page, (done) => send({ type: 'picture_progress', done })), async (run) => {
+    const { samples_per_pixel } = settings();
+    return { type: 'picture', picture: await run.draw({ ...request, samples_per_pixel }) };
+  });
+
+const film = (request: Request & { type: 'film' }) =>
+  save(new FilmRun(page, (done) => send({ type: 'film_progress', done })), async (run) => ({ type: 'film', film: await run.draw(request) }));
 
 // The thesis's measurements. No frames are drawn meanwhile.
 
@@ -491,8 +544,14 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return attempt(request.id, () => pick(request));
     case 'describe':
       return attempt(null, () => describe(request));
+    case 'measure_frames':
+      return attempt(null, () => measure_frames(request));
+    case 'histogram':
+      return attempt(null, () => histogram(request));
     case 'picture':
       return attempt(request.id, () => picture(request));
+    case 'film':
+      return attempt(request.id, () => film(request));
     case 'picture_cancel':
       saving?.cancel();
       return;

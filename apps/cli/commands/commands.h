@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/compare/query_sets.h"
 #include "bihive/job/picture_request.h"
 #include "bihive/render/layers.h"
 #include "bihive/scene/camera_path.h"
@@ -131,6 +132,18 @@ struct StatsOptions {
 };
 void run_stats(const StatsOptions& options);
 
+/// Structures compared by name (bihive/compare/structure.h).
+struct CompareOptions {
+  InputOptions input;
+  std::vector<std::string> structures;      ///< empty: all
+  std::vector<workbench::QueryKind> kinds;  ///< empty: all
+  std::int64_t count = 65536;               ///< queries of a kind
+  std::int64_t threads = 1;
+  std::string output;  ///< the report, HTML; empty: none
+  bool json = false;
+};
+void run_compare(const CompareOptions& options);
+
 struct TraceOptions {
   InputOptions input;
   std::string rays, t, id;  ///< paths
@@ -180,6 +193,23 @@ struct SelectOptions {
   bool json = false;
 };
 void run_select(const SelectOptions& options);
+
+struct MeasureCommandOptions {
+  InputOptions input;
+  double probe = 0;
+  std::string select;               ///< an expression; empty: all spheres
+  std::string by;                   ///< a column; empty: no sums by it
+  std::string per_sphere;           ///< a CSV file; empty: none
+  std::string cavities;             ///< the same
+  std::string contacts;             ///< the same
+  std::string buried;               ///< the same
+  std::vector<std::string> groups;  ///< expressions
+  bool frames = false;
+  std::int64_t threads = 0;
+  bool json = false;
+};
+void run_measure(const MeasureCommandOptions& options);
+void run_measure_frames(const MeasureCommandOptions& options);  ///< measure.cpp has checked the options
 
 struct ConvertOptions {
   InputOptions input;

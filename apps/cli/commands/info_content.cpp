@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
+#include "bihive/io/column_choice.h"
 #include "bihive/io/residue_runs.h"
+#include "bihive/scene/bonds.h"
 #include "bihive/select/selection.h"
 
 namespace bihive::cli {
@@ -66,7 +69,7 @@ InfoContent content_of(const SphereSet& spheres) {
       if (one.spheres > 0) content.chains.push_back(one);
   }
   count_residues(spheres, begins, content);
-  for (const char* const name : {"mol", "molecule", "mol_id", "molecule_id"})
+  for (const std::string_view name : kMoleculeColumns)
     if (const NamedNumbers* const column = attributes.find_numbers(name); column != nullptr && !content.molecules) {
       std::vector<double> numbers = column->values;
       std::erase_if(numbers, [](double number) { return std::isnan(number); });
@@ -74,6 +77,26 @@ InfoContent content_of(const SphereSet& spheres) {
       content.molecules = std::unique(numbers.begin(), numbers.end()) - numbers.begin();
     }
   return content;
+}
+
+InfoBonds bonds_of(const SphereSet& spheres) {
+  constexpr std::pair<BondOrder, const char*> kOrders[] = {{BondOrder::single, "single"},
+                                                           {BondOrder::double_bond, "double"},
+                                                           {BondOrder::triple, "triple"},
+                                                           {BondOrder::aromatic, "aromatic"}};
+  constexpr std::int64_t kMostAtoms = 1 << 20;
+  const StatedBonds& stated = spheres.attributes().bonds;
+  InfoBonds bonds;
+  bonds.stated = static_cast<std::int64_t>(stated.list.size());
+  for (const auto& [order, name] : kOrders) {
+    const std::int64_t count = std::count_if(stated.list.begin(), stated.list.end(),
+                                             [order = order](const StatedBond& bond) { return bond.order == order; });
+    if (count > 0) bonds.orders.emplace_back(name, count);
+  }
+  if (stated.are_all || spheres.size() > kMostAtoms) return bonds;
+  const Result<std::vector<ImagePair>> automatic = automatic_bonds(spheres, Sticks().reach);
+  if (automatic) bonds.by_distance = static_cast<std::int64_t>(automatic->size()) - bonds.stated;
+  return bonds;
 }
 
 }  // namespace bihive::cli

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bihive/geometry/sphere_set.h"
@@ -23,5 +24,15 @@ struct InfoContent {
   std::optional<std::int64_t> molecules;  ///< distinct numbers of a column mol
 };
 InfoContent content_of(const SphereSet& spheres);
+
+/// The bonds that `--bonds auto` draws, by origin.
+struct InfoBonds {
+  std::int64_t stated = 0;
+  /// "single", "double", "triple" and "aromatic" with their counts: those that there are.
+  std::vector<std::pair<std::string, std::int64_t>> orders;
+  /// Those that are not stated. Nothing: the file states all or no element, or there are more than 2^20 spheres.
+  std::optional<std::int64_t> by_distance;
+};
+InfoBonds bonds_of(const SphereSet& spheres);
 
 }  // namespace bihive::cli

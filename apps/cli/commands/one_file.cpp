@@ -27,13 +27,15 @@ std::string filled(const std::string& id, const std::string& name, const std::st
 }  // namespace
 
 Result<std::string> one_file_with(const std::string& page, const OneFileData& data) {
-  const std::string trajectory = place("page_trajectory");
-  const std::string places = place("page_state") + "\n" + place("page_file") + "\n" + trajectory;
+  const std::string places = place("page_state") + "\n" + place("page_file") + "\n" + place("page_trajectory");
   const std::size_t at = page.find(places);
   if (at == std::string::npos) return Error{"this page is of another version", "", 0, 0, "run make web"};
-  const std::string file = data.file_name.empty() ? place("page_file") : filled("page_file", data.file_name, data.file);
-  return page.substr(0, at) + filled("page_state", "", data.state) + "\n" + file + "\n" + trajectory +
-         page.substr(at + places.size());
+  const auto with = [](const std::string& id, const std::string& name, const std::string& bytes) {
+    return name.empty() ? place(id) : filled(id, name, bytes);
+  };
+  return page.substr(0, at) + filled("page_state", "", data.state) + "\n" +
+         with("page_file", data.file_name, data.file) + "\n" +
+         with("page_trajectory", data.trajectory_name, data.trajectory) + page.substr(at + places.size());
 }
 
 }  // namespace bihive::cli

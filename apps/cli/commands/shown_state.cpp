@@ -40,6 +40,9 @@ ViewerLook look_of(const ViewOptions& options) {
   look.lights = options.style.light_words;
   look.nan_colour = options.looks.nan_colour;
   look.floor = options.floor.value_or("");
+  // A side to look from does not keep the file's camera, nor its up.
+  if (options.floor && options.up) look.floor_up = *options.up;
+  if (options.floor && !options.up && (options.view_from || options.view_of)) look.floor_up = {0, 1, 0};
   look.rows = options.looks.rows;
   return look;
 }

@@ -40,12 +40,12 @@ PageFiles load_page() {
   return std::move(*page);
 }
 
-// How the input is read, in the page's words: radii are numbers (web/src/link.ts).
+// How the input is read, in the page's words: radii are numbers (web/src/link.ts). The trajectory is part of the
+// source.
 ordered_json reading_of(const InputOptions& input) {
   const ReadOptions& options = input.reading.options();
-  if (!options.trajectory.empty())
-    fail_usage("the page opens a trajectory that is dropped on it with its file", "or see bihive view");
   ordered_json reading = *json_from_text<ordered_json>(reading_to_json(input.reading));
+  reading.erase("trajectory");
   if (reading.contains("radius")) reading["radius"] = *options.radius;
   if (reading.contains("radius_scale")) reading["radius_scale"] = options.radius_scale;
   return reading;
@@ -66,19 +66,25 @@ void write_one_file(const WebOptions& options) {
   const InputOptions& input = options.shown.input;
   if (input.input == kStandardStream)
     fail_usage("the page keeps the name of its file, which the standard input has not", "name a file");
-  check_outputs({options.html}, {input.input}, /*are_text=*/true);
+  check_outputs({options.html}, {input.input, input.reading.options().trajectory}, /*are_text=*/true);
   OneFileData data;
   ordered_json start;
   if (is_built_in_scene(input.input)) {
     start["source"]["built_in"] = input.input;
   } else {
     // Read the input now, so that errors appear here and not when somebody opens the page.
-    if (const Input loaded = load_input(input, LooksOfFile::keep); !loaded.files.empty())
+    const std::string& trajectory = input.reading.options().trajectory;
+    if (const Input loaded = load_input(input, LooksOfFile::keep); loaded.files.size() > (trajectory.empty() ? 0 : 1))
       fail_usage(input.input + " needs " + loaded.files.front() + " beside it, and the page holds one file",
                  "name the file of the spheres, with options for the rest");
     data.file = read_input(input.input);
     data.file_name = std::filesystem::path(input.input).filename().string();
     start["source"]["file"] = data.file_name;
+    if (!trajectory.empty()) {
+      data.trajectory = read_input(trajectory);
+      data.trajectory_name = std::filesystem::path(trajectory).filename().string();
+      start["source"]["trajectory"] = data.trajectory_name;
+    }
   }
   put_state(options.shown, start);
   data.state = start.dump();
@@ -99,6 +105,9 @@ void write_one_file(const WebOptions& options) {
 
 // Everything that can be fetched: the page, the file, and the page's first input (start.json).
 Site site_of(const WebOptions& options) {
+  if (!options.shown.input.reading.options().trajectory.empty())
+    fail_usage("the page opens a trajectory that is dropped on it with its file",
+               "or put both into one page by --html, or see bihive view");
   Site site;
   ordered_json start = ordered_json::object();
   const std::string& input = options.shown.input.input;

@@ -41,12 +41,20 @@ Files inputs_of(const ViewOptions& options) {
   return files_of_drawing(options);
 }
 
+Files inputs_of(const CompareOptions& options) {
+  return files_of(options.input);
+}
+
 Files inputs_of(const TraceOptions& options) {
   return together({files_of(options.input), {options.rays}});
 }
 
 Files inputs_of(const SceneSaveOptions& options) {
   return inputs_of(options.picture);
+}
+
+Files inputs_of(const MeasureCommandOptions& options) {
+  return files_of(options.input);
 }
 
 Files inputs_of(const ConvertOptions& options) {
@@ -65,6 +73,10 @@ Files outputs_of(const ViewOptions& options) {
   return options.screenshot.empty() ? Files{} : Files{options.screenshot};
 }
 
+Files outputs_of(const CompareOptions& options) {
+  return options.output.empty() ? Files{} : Files{options.output};
+}
+
 Files outputs_of(const TraceOptions& options) {
   return {options.t, options.id};
 }
@@ -75,6 +87,13 @@ Files outputs_of(const SceneOptions& options) {
 
 Files outputs_of(const SceneSaveOptions& options) {
   return outputs_of(options.picture);
+}
+
+Files outputs_of(const MeasureCommandOptions& options) {
+  Files files;
+  for (const std::string& file : {options.per_sphere, options.cavities, options.contacts, options.buried})
+    if (!file.empty()) files.push_back(file);
+  return files;
 }
 
 Files outputs_of(const ConvertOptions& options) {

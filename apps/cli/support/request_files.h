@@ -14,17 +14,21 @@ namespace bihive::cli {
 std::vector<std::string> inputs_of(const RenderOptions& options);
 std::vector<std::string> inputs_of(const FilmOptions& options);
 std::vector<std::string> inputs_of(const ViewOptions& options);
+std::vector<std::string> inputs_of(const CompareOptions& options);
 std::vector<std::string> inputs_of(const TraceOptions& options);
 std::vector<std::string> inputs_of(const SceneSaveOptions& options);
+std::vector<std::string> inputs_of(const MeasureCommandOptions& options);
 std::vector<std::string> inputs_of(const ConvertOptions& options);
 std::vector<std::string> inputs_of(const ThesisOptions& options);
 
 /// The files that it writes; a film has more of them (film/film_sink.h).
 std::vector<std::string> outputs_of(const RenderOptions& options);
 std::vector<std::string> outputs_of(const ViewOptions& options);
+std::vector<std::string> outputs_of(const CompareOptions& options);
 std::vector<std::string> outputs_of(const TraceOptions& options);
 std::vector<std::string> outputs_of(const SceneOptions& options);
 std::vector<std::string> outputs_of(const SceneSaveOptions& options);
+std::vector<std::string> outputs_of(const MeasureCommandOptions& options);
 std::vector<std::string> outputs_of(const ConvertOptions& options);
 std::vector<std::string> outputs_of(const ThesisOptions& options);
 

@@ -14,13 +14,14 @@ struct ForeignOption {
 
 /// The hint for an option without a counterpart.
 inline constexpr std::string_view kSpheresAlone =
-    "bihive draws spheres alone; docs/coming_from.md says what else is possible";
+    "bihive draws spheres, bonds, arrows and tubes; docs/coming_from.md says what else is possible";
 
 inline constexpr std::array kForeignOptions{
-    ForeignOption{
-        " --cartoon --ribbon --ribbons --tube --trace --surface --mesh --isosurface --sticks --stick --licorice "
-        "--bonds --lines --arrows --vectors ",
-        "", ""},
+    ForeignOption{" --cartoon --ribbon --ribbons --surface --mesh --isosurface --lines ", "", ""},
+    ForeignOption{" --tube --tubes --putty ", "--trace", "--trace chain"},
+    ForeignOption{" --vectors --vector --arrow ", "--arrows", "--arrows VX,VY,VZ"},
+    ForeignOption{" --sticks --stick --licorice ", "--style", "--style licorice"},
+    ForeignOption{" --ball-and-stick --balls-and-sticks ", "--style", "--style ball-and-stick"},
     ForeignOption{" --perspective ", "--projection", "--projection perspective"},
     ForeignOption{" --orthographic --ortho --orthoscopic ", "--projection", "--projection orthographic"},
     ForeignOption{" --center --centre ", "--look-at", "--look-at EXPR"},

@@ -58,8 +58,8 @@ Candidates candidates_of_place(const std::string& place, const std::string& comm
   if (place == "EXPERIMENT") {
     found.words = thesis_experiments();
   } else if (place == "INPUT" || place == "NAME") {
-    for (const char* name : kBuiltInScenes)
-      if (place == "INPUT" || std::string(name) != "demo") found.words.emplace_back(name);
+    for (const BuiltInScene& one : kBuiltInScenes)
+      if (place == "INPUT" || one.kind != BuiltInKind::file) found.words.emplace_back(one.name);
   }
   found.files = (place == "INPUT" || place == "TRAJECTORY" || place == "FIGURE") && command != "scene";
   return found;

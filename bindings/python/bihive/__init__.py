@@ -13,6 +13,7 @@ Tree                hits of rays, spheres near points, pairs of spheres
 view                the page in a browser, with spheres from memory
 select, stats       spheres that match an expression; statistics of the trees
 distance            between centres of spheres; angle, dihedral
+measure             exact area and volume of the union of spheres; sasa, volume, porosity, contacts, buried_area
 colour_map          colours of numbers; linear: linear light as colours
 Error               the base of all exceptions of this package
 """
@@ -29,10 +30,12 @@ from ._picture import Picture
 from ._render import render
 from ._spheres import Spheres, colour_map, convert, read, select, stats
 from ._tree import Tree
-from ._view import View, save_page, view
+from ._union_measures import Contacts, Measures, buried_area, contacts, measure, porosity, sasa, volume
+from ._view import Page, View, page, save_page, view
 
 __all__ = [
     "ClosestHits",
+    "Contacts",
     "Error",
     "FileError",
     "HitDerivatives",
@@ -40,9 +43,11 @@ __all__ = [
     "InputError",
     "InputWarning",
     "Look",
+    "Measures",
     "MissingError",
     "Near",
     "Orthographic",
+    "Page",
     "Pairs",
     "Perspective",
     "Picture",
@@ -55,17 +60,24 @@ __all__ = [
     "__version__",
     "again",
     "angle",
+    "buried_area",
     "colour_map",
+    "contacts",
     "convert",
     "dihedral",
     "distance",
     "film",
     "linear",
+    "measure",
+    "page",
+    "porosity",
     "read",
     "render",
+    "sasa",
     "save_page",
     "select",
     "stats",
     "verify",
     "view",
+    "volume",
 ]

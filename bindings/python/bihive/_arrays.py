@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Optional
 
 import numpy as np
@@ -83,8 +84,10 @@ def vectors(name: str, value: Any) -> np.ndarray[Any, Any]:
 
 def in_a_row(name: str, array: np.ndarray[Any, Any], shape: tuple[int, ...]) -> np.ndarray[Any, Any]:
     """Shape (n,): the entries of an array of this shape in C order, or n times one number (which takes no memory)."""
-    if array.ndim == 0 or (shape == () and array.shape == (1,)):
-        return np.broadcast_to(array.reshape(()), (int(np.prod(shape)),))
+    if shape == () and array.size == 1 and array.ndim <= 1:
+        return array.reshape(1)
+    if array.ndim == 0:
+        return np.broadcast_to(array, (math.prod(shape),))
     if array.shape != shape:
         raise bad_argument(name, f"expected one number, or shape {shape}, found shape {array.shape}")
     return array.reshape(-1)

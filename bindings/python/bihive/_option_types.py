@@ -30,10 +30,11 @@ class ReadOptions(TypedDict, total=False):
     replicate: Optional[tuple[int, int, int]]  # Files: this many copies along the vectors of the periodic cell
     cell_vectors: Optional[Sequence[float]]  # Files: the three vectors of the cell (the file's)
     cell_origin: Optional[Sequence[float]]  # Files: the corner of the cell (the file's, else 0,0,0)
-    periodic: Optional[bool]  # Files: distances see the images of the periodic cell (usual); rays of bihive trace too
+    periodic: Optional[bool]  # Files: distances see the images of the periodic cell (usual); bihive trace and measure too
     wrap: Optional[Union[bool, Literal["molecules"]]]  # Files: move every centre into the cell
     wrap_molecules: Optional[bool]  # Files: bring molecules together, and move each into the cell as a whole; also as the value molecules of wrap
     unwrap: Optional[bool]  # Files: bring together what belongs together, by the columns ix, iy, iz, else by mol, bonds or residues
+    exposed_area: Optional[float]  # Files: add the column exposed_area, the surface of each sphere that a probe of radius R reaches
     count: Optional[int]  # Scenarios: number of spheres (4096)
     seed: Optional[int]  # Scenarios: the seed of their random numbers (1)
 
@@ -67,6 +68,20 @@ class RenderOptions(ReadOptions, total=False):
     outline_step: Optional[float]  # Minimum depth step at an outline, in radii of the sphere in front (2)
     outline_colour: Optional[Colour]  # Colour of outlines (black)
     line_unit: Optional[Literal["px", "picture", "pt"]]  # Unit of the widths of outlines, creases and cell edges: pixels, 1/720 of the picture's shorter side, or points in print (styles: picture, scene files: px)
+    bonds: Optional[Literal["none", "distance", "file", "auto"]]  # Draw sticks between bonded atoms: those nearer than their covalent radii allow, those that the file states, or both (docs/pictures.md) (the style's)
+    bond_reach: Optional[float]  # The longest bond, in sums of both atoms' covalent radii (1.2)
+    stick_radius: Optional[float]  # Radius of the sticks in world units (0.15, or the style's)
+    ball_scale: Optional[float]  # With bonds: multiplies all radii; 0: balls as thick as the sticks (1, or the style's)
+    arrows: Optional[str]  # Draw an arrow on each sphere, along the vector that these attributes are; arithmetic too: fx/m,fy/m,fz/m
+    arrow_select: Optional[str]  # The spheres that have arrows (all)
+    arrow_scale: Optional[float]  # Length of an arrow in world units, for a vector of length 1 (1)
+    arrow_radius: Optional[float]  # Radius of the shafts of arrows in world units (a quarter of the sphere's)
+    arrow_pivot: Optional[Literal["tail", "middle"]]  # The point of an arrow that is at the centre of its sphere (tail)
+    arrow_colour: Optional[Union[Colour, str]]  # Colour of arrows, or an attribute that colours them, with a map and a range (the sphere's)
+    trace: Optional[Literal["none", "chain", "mol"]]  # Draw a tube through the beads of each chain, or of each molecule of the column mol (none)
+    trace_select: Optional[str]  # The beads of tubes (CA and P, or all where there are none)
+    trace_radius: Optional[Union[float, str]]  # Radius of tubes in world units: a number, an attribute, or arithmetic: b_factor/50 (a quarter of the bead's)
+    trace_atoms: Optional[Literal["hidden", "shown"]]  # Whether the spheres of traced residues are drawn too (hidden)
     exposure: Optional[float]  # Stops: all light times 2^EV; the background keeps its colour (the style's)
     tone: Optional[Literal["none", "soft", "filmic"]]  # Curve for light that is too bright for the picture (the style's)
     view_from: Optional[str]  # Show the whole set from this side (files: front); principal: its longest axis along the picture's longer side; best: the direction that shows most of a selection

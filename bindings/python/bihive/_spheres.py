@@ -110,7 +110,7 @@ _OTHER_NAMES = {
     **dict.fromkeys(("box", "lattice"), "cell"),
     **dict.fromkeys(("pbc",), "periodic"),
 }
-_ARGUMENTS = ["xyz", "radius", "colour", "opacity", "element", "type", "cell", "periodic", "name", "columns"]
+_ARGUMENTS = ["xyz", "radius", "colour", "opacity", "element", "type", "cell", "periodic", "name", "columns", "bonds"]
 
 
 def _unknown_argument(name: str) -> UsageError:
@@ -167,6 +167,21 @@ def _columns(columns: Any, count: int) -> tuple[dict[str, Array], dict[str, list
     return numbers_of, texts_of
 
 
+def _bonds(value: Any, count: int) -> Array:
+    """int32 (k, 3): two spheres and an order."""
+    array = as_array("bonds", value)
+    if array.shape == (0,):
+        array = np.zeros((0, 2), dtype=np.int32)
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise bad_argument("bonds", f"expected shape (n, 2) or (n, 3), found shape {array.shape}")
+    ends = whole_numbers("bonds", array[:, :2].reshape(-1), array.shape[0] * 2, 0, count - 1).reshape(-1, 2)
+    orders = whole_numbers("bonds", array[:, 2], array.shape[0], 0, 4) if array.shape[1] == 3 else np.zeros(len(array))
+    same = np.flatnonzero(ends[:, 0] == ends[:, 1])
+    if len(same) > 0:
+        raise bad_argument("bonds", f"bond {same[0]} joins sphere {ends[same[0], 0]} and itself")
+    return np.ascontiguousarray(np.column_stack([ends, orders]), dtype=np.int32)
+
+
 def _positions(key: Any, count: int) -> Array:
     """int64 (n,), each from 0 to before `count`: of a slice, a mask, one position or several. Takes time by what is chosen."""
     if isinstance(key, slice):
@@ -208,6 +223,8 @@ class Spheres:
     periodic: whether distances (selections, Tree) see the images along the cell; or three of them, one for each vector.
     columns: attributes of your own by name, each of shape (n,) or one number: numbers or texts. Selections and colour_by know
         them. Integers that float64 does not hold (above 2**53) are refused: give them as texts.
+    bonds: pairs of positions, shape (k, 2), or with an order, (k, 3): 0 (unknown), 1, 2, 3 or 4 (aromatic). What
+        render(..., bonds="file") draws as sticks, between spheres of any kind.
 
     Raises UsageError (a ValueError) that names the argument, InputError for a coordinate or radius that is NaN, infinite,
     beyond 3.4e38 or negative; its message has the sphere's position.
@@ -233,6 +250,7 @@ class Spheres:
         periodic: npt.ArrayLike = True,
         name: str = "spheres",
         columns: Optional[Mapping[str, npt.ArrayLike]] = None,
+        bonds: Optional[npt.ArrayLike] = None,
         **other_names: Any,
     ) -> None:
         given, spelled = _by_their_own_names({"xyz": xyz, "radius": radius, "colour": colour}, other_names)
@@ -279,6 +297,8 @@ class Spheres:
             None,
             [],
         )
+        if bonds is not None:
+            self._core = self._core.with_bonds(_bonds(bonds, count), True)
         _warn_of(self._core)
 
     @classmethod
@@ -312,6 +332,12 @@ class Spheres:
         """Along which vectors of the cell distances see images; False without a cell."""
         a, b, c = self._core.periodic
         return a, b, c
+
+    @property
+    def bonds(self) -> Array:
+        """int32 (k, 3): the bonds that the file states, or those given: two positions in ascending order, and 0 (order unknown), 1, 2,
+        3 or 4 (aromatic); a new array."""
+        return self._core.bonds
 
     @property
     def columns(self) -> list[str]:
@@ -470,7 +496,7 @@ class Spheres:
     def __getstate__(self) -> dict[str, Any]:
         core = self._core
         state: dict[str, Any] = {"format": core.format, "name": core.name, "xyz": self.xyz, "radius": self.radius}
-        for name in ("element", "type", "colour", "opacity", "cell", "periodic", "columns", *_OF_FRAMES):
+        for name in ("element", "type", "colour", "opacity", "cell", "periodic", "columns", "bonds", "bonds_are_all", *_OF_FRAMES):
             state[name] = getattr(core, name)
         return state
 
@@ -520,7 +546,7 @@ def _core_of(state: dict[str, Any]) -> _bihive.Spheres:
             texts_of.append((column, texts(column, np.array(values, dtype=object), count)))
         else:
             numbers_of.append((column, np.ascontiguousarray(one_each(column, values, count), dtype=np.float64)))
-    return _bihive.spheres_from_arrays(
+    core = _bihive.spheres_from_arrays(
         places,
         numbers("radius", state["radius"]),
         integers("element", np.uint8, 0, 118),
@@ -539,6 +565,9 @@ def _core_of(state: dict[str, Any]) -> _bihive.Spheres:
         _whole_or_none("step", state.get("step")),
         [text_of("rules", rule) for rule in several("rules", state.get("rules", []), "sentences")],
     )
+    if state.get("bonds") is None:
+        return core
+    return core.with_bonds(_bonds(state["bonds"], count), boolean("bonds_are_all", state.get("bonds_are_all", False)))
 
 
 def _whole_or_none(name: str, value: Any) -> Optional[int]:

@@ -258,13 +258,13 @@ class Tree:
         most = None if k is None else _count_of(k)
         core = self._core
         try:
-            ray, t, ids = core.all_hits(*rays, own if images else None, images)
+            ray, t, ids, begin = core.all_hits(*rays, own if images else None, images)
         except InputError as error:
             raise _of_t_max(error) from None
         if own is not None and not images:
             others = ids != own[ray]
             ray, t, ids = ray[others], t[others], ids[others]
-        begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
+            begin = np.searchsorted(ray, np.arange(rays[0].shape[0] + 1))
         if most is not None:
             first = np.arange(len(ray)) - begin[ray] < most
             ray, t, ids = ray[first], t[first], ids[first]
@@ -448,12 +448,15 @@ class Tree:
         """The rays one after the other, and their shape."""
         origin = vectors("origins", origins)
         direction = vectors("directions", directions)
-        try:
-            shape = np.broadcast_shapes(origin.shape[:-1], direction.shape[:-1])
-        except ValueError:
-            raise bad_argument(
-                "directions", f"expected as many as origins, found shapes {origin.shape} and {direction.shape}"
-            ) from None
+        shape = origin.shape[:-1]
+        if direction.shape != origin.shape:  # it takes longer than a ray
+            try:
+                shape = np.broadcast_shapes(shape, direction.shape[:-1])
+            except ValueError:
+                raise bad_argument(
+                    "directions", f"expected as many as origins, found shapes {origin.shape} and {direction.shape}"
+                ) from None
+            origin, direction = (np.broadcast_to(one, (*shape, 3)) for one in (origin, direction))
         left = None
         if leaves is not None:
             given = whole_numbers("leaves", leaves, None, -2, max(len(self._spheres) - 1, 0))
@@ -462,8 +465,8 @@ class Tree:
         if inside is not None:
             into = np.ascontiguousarray(in_a_row("inside", numbers("inside", inside), shape) != 0).view(np.uint8)
         rays = (
-            np.broadcast_to(origin, (*shape, 3)).reshape(-1, 3),
-            np.broadcast_to(direction, (*shape, 3)).reshape(-1, 3),
+            origin.reshape(-1, 3),
+            direction.reshape(-1, 3),
             None if t_min is None else in_a_row("t_min", numbers("t_min", t_min), shape),
             None if t_max is None else in_a_row("t_max", numbers("t_max", t_max), shape),
             left,
@@ -490,10 +493,11 @@ def _count_of(k: Any) -> int:
 
 def _limits(limits: Any, shape: Shape) -> Array:
     """float64, for each point."""
-    most = np.ascontiguousarray(in_a_row("limits", numbers("limits", limits), shape), dtype=np.float64)
-    if np.isnan(most).any():
+    given = numbers("limits", limits)
+    most = in_a_row("limits", given, shape)
+    if given != given if given.ndim == 0 else np.isnan(given).any():
         raise bad_argument("limits", "expected numbers, found NaN")
-    return most
+    return np.ascontiguousarray(most, dtype=np.float64)
 
 
 def _pass_over(core: _bihive.Tree, rays: Rays, own: Array, t: Array, ids: Array) -> None:
@@ -502,7 +506,7 @@ def _pass_over(core: _bihive.Tree, rays: Rays, own: Array, t: Array, ids: Array)
     if again.size == 0:
         return
     t_min, t_max, leaves, inside = (None if one is None else np.ascontiguousarray(one[again]) for one in rays[2:])
-    ray, t_of_all, id_of_all = core.all_hits(rays[0][again], rays[1][again], t_min, t_max, leaves, inside, None, False)
+    ray, t_of_all, id_of_all, _ = core.all_hits(rays[0][again], rays[1][again], t_min, t_max, leaves, inside, None, False)
     others = id_of_all != own[again][ray]
     hit, first = np.unique(ray[others], return_index=True)
     t[again], ids[again] = np.inf, -1

@@ -22,10 +22,11 @@ if TYPE_CHECKING:
 
     from ._option_types import RenderOptions
 
-__all__ = ["View", "save_page", "view"]
+__all__ = ["Page", "View", "page", "save_page", "view"]
 
 
 _LONGEST_NAME = 60  # characters: a folder takes names of 255 bytes
+_FRAME_PX = 520  # height of the page in a notebook
 
 
 class View:
@@ -60,6 +61,31 @@ class View:
 
     def _repr_html_(self) -> str:
         return f'<a href="{self.url}" target="_blank">{self.url}</a>' if self.is_open else "closed"
+
+
+class Page:
+    """The page with spheres inside, made by page(): it shows itself in a notebook, also in one that was exported as HTML.
+
+    There the page is in a frame of its own, which can neither reach the notebook nor a network.
+    """
+
+    def __init__(self, html: str, name: str) -> None:
+        if not isinstance(html, str) or not isinstance(name, str):
+            raise TypeError(f"a Page is made by page(), not of {found(html if not isinstance(html, str) else name)}")
+        self.html = html
+        """All of it, a document of HTML."""
+        self._name = name
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        return (
+            f'<iframe title="{escape(self._name)}" sandbox="allow-scripts allow-downloads" allow="fullscreen" '
+            f'style="width: 100%; height: {_FRAME_PX}px; border: 0" srcdoc="{escape(self.html)}"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"<bihive.Page: {self._name}, {len(self.html) / 1e6:.1f} MB>"
 
 
 def _end(server: subprocess.Popen[str]) -> None:
@@ -130,13 +156,40 @@ def save_page(
 
     Raises MissingError where the program ``bihive`` or its page (``make web``) is missing.
     """
+    _write_page(source, path_of("path", path), camera, style, select, looks, dict(options))
+
+
+def page(
+    source: Any,
+    *,
+    camera: Camera = None,
+    style: Any = None,
+    select: Union[str, npt.ArrayLike, None] = None,
+    looks: Union[Look, Sequence[Look], None] = None,
+    **options: Unpack[RenderOptions],
+) -> Page:
+    """The page with these spheres inside, as save_page() writes it, for a notebook: as the last line of a cell they turn there.
+
+    All arguments: as of save_page(). Nothing is served, so it works in a notebook on another machine, without a network, and after
+    an export as HTML; each one makes the notebook some 2 MB larger.
+    """
+    import tempfile
+
+    with tempfile.TemporaryDirectory(prefix="bihive_page_") as folder:
+        out = os.path.join(folder, "page.html")
+        _write_page(source, out, camera, style, select, looks, dict(options))
+        with open(out, encoding="utf-8") as file:
+            html = file.read()
+    name = os.path.basename(os.fspath(source)) if isinstance(source, (str, os.PathLike)) else getattr(source, "name", "spheres")
+    return Page(html, str(name))
+
+
+def _write_page(source: Any, out: str, camera: Any, style: Any, select: Any, looks: Any, of_picture: dict[str, Any]) -> None:
     import subprocess
     import tempfile
 
-    out = path_of("path", path)
     if isinstance(camera, Picture) or isinstance(style, (dict, Style)):
         raise bad_argument("camera" if isinstance(camera, Picture) else "style", "of a page is a name")
-    of_picture: dict[str, Any] = dict(options)
     folder = tempfile.mkdtemp(prefix="bihive_view_")
     descriptors: list[int] = []
     try:

@@ -8,6 +8,7 @@
 #include "bihive/simd/target.h"
 #include "errors.h"
 #include "film_file.h"
+#include "measures.h"
 #include "picture.h"
 #include "spheres.h"
 #include "tree.h"
@@ -21,6 +22,7 @@ PYBIND11_MODULE(_bihive, module) {
   bihive::python::bind_pictures(module);
   bihive::python::bind_trees(module);
   bihive::python::bind_film_files(module);
+  bihive::python::bind_measures(module);
   module.def("check_environment", [] { bihive::python::value_of(bihive::check_target_environment()); });
   module.def("target", [] { return std::string(bihive::active_target()); });
   module.attr("__version__") = std::string(bihive::version());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -31,6 +32,7 @@
 #include "bihive/job/scene_request.h"
 #include "bihive/job/selection.h"
 #include "bihive/render/memory.h"
+#include "bihive/scene/bonds.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/look_text.h"
@@ -193,6 +195,28 @@ SharedSpheres with_columns(const Spheres& whole, const NumberColumns& numbers, c
   return made;
 }
 
+// The same spheres with these bonds: rows of two ids, the smaller one first, and an order. bihive/_spheres.py has
+// checked them.
+SharedSpheres with_bonds(const Spheres& whole, const Array<std::int32_t>& rows, bool are_all) {
+  auto made = std::make_shared<Spheres>(whole);
+  StatedBonds& bonds = made->file.spheres.attributes().bonds;
+  bonds = {};
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i)
+    bonds.add(rows.at(i, 0), rows.at(i, 1), static_cast<BondOrder>(rows.at(i, 2)));
+  bonds.put_in_order();
+  bonds.are_all = are_all;
+  return made;
+}
+
+py::array_t<std::int32_t> bonds_of(const Spheres& spheres) {
+  std::vector<std::int32_t> rows;
+  for (const StatedBond& bond : spheres.file.spheres.attributes().bonds.list)
+    for (const std::int32_t number : {bond.one, bond.other, static_cast<std::int32_t>(bond.order)})
+      rows.push_back(number);
+  const auto count = static_cast<py::ssize_t>(rows.size() / 3);
+  return array_from<std::int32_t>(rows, {count, 3});
+}
+
 SphereFile without_scene(LoadedScene loaded) {
   SphereFile file;
   file.spheres = std::move(loaded.scene.spheres);
@@ -219,6 +243,29 @@ SphereFile read_input_file(const InputOptions& options) {
   return without_scene(value_of(load_scene(bytes, options.input, reading)));
 }
 
+// A bond through a side of the cell goes to the next copy, and from the last one to the first.
+std::vector<StatedBond> bonds_of_copies(const SphereSet& set) {
+  const std::vector<ImagePair> pairs = bonds_of_file(set);
+  const Images& images = set.images();
+  StatedBonds made;
+  if (set.total_size() > std::numeric_limits<std::int32_t>::max()) return made.list;
+  for (std::int64_t copy = 0; copy < images.count(); ++copy) {
+    const std::array<std::int32_t, 3> place = images.place(copy);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      std::array<std::int32_t, 3> other{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t count = images.counts[axis];
+        other[axis] = static_cast<std::int32_t>(((place[axis] + pairs[k].image[axis]) % count + count) % count);
+      }
+      made.add(static_cast<std::int32_t>(pairs[k].pair[0] + copy * set.size()),
+               static_cast<std::int32_t>(pairs[k].pair[1] + images.number(other) * set.size()),
+               set.attributes().bonds.list[k].order);
+    }
+  }
+  made.put_in_order();
+  return made.list;
+}
+
 // Makes the copies along the cell's vectors spheres of an enlarged cell, so that arrays have a row for each of them.
 SphereFile with_copies(SphereFile file) {
   const SphereSet& set = file.spheres;
@@ -239,6 +286,7 @@ SphereFile with_copies(SphereFile file) {
   const auto view = [&](std::size_t column) { return NumbersView::of(columns[column]); };
   SphereSet all = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
   all.attributes() = set.attributes().part(stored);
+  all.attributes().bonds.list = bonds_of_copies(set);
   if (set.cell()) {
     Cell cell = *set.cell();
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -508,6 +556,10 @@ void bind_spheres(py::module_& module) {
       .def("part", part_of)
       .def("moved", moved)
       .def("with_columns", with_columns)
+      .def("with_bonds", with_bonds)
+      .def_property_readonly("bonds", bonds_of)
+      .def_property_readonly("bonds_are_all",
+                             [](const Spheres& s) { return s.file.spheres.attributes().bonds.are_all; })
       .def_property_readonly("cell", cell_or_none)
       .def_property_readonly("periodic", periodic)
       .def_property_readonly(

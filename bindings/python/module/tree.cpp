@@ -18,6 +18,7 @@
 
 #include "arrays.h"
 #include "bihive/base/parallel.h"
+#include "bihive/base/watch.h"
 #include "bihive/render/memory.h"
 #include "bihive/wide/surface_of_hit.h"
 #include "errors.h"
@@ -29,13 +30,16 @@ namespace bihive::python {
 namespace {
 
 // Rays in a piece of work. Neighbours in blocks take little time each, so that each thread may have several pieces.
-// Scattered rays are sorted within a piece: the more the better, but Ctrl-C is checked between two pieces alone.
+// Scattered rays are sorted within a piece: the more the better; of all hits fewer, which are sorted at its end.
 constexpr std::int64_t kFewestRays = 16384;
 constexpr std::int64_t kMostRaysInBlocks = 131072;
 constexpr std::int64_t kMostScatteredRays = 524288;
+constexpr std::int64_t kMostRaysOfHits = 131072;
+// Rays per piece for the scalar reference: a few hundredths of a second of work.
+constexpr std::int64_t kMostRaysOfReference = 8192;
 constexpr std::int64_t kPiecesPerThread = 4;
-// Brute force tests in a piece: well below a second.
-constexpr std::int64_t kMostTests = std::int64_t{1} << 25;
+// Brute force tests in a piece: a few hundredths of a second.
+constexpr std::int64_t kMostTests = std::int64_t{1} << 23;
 
 // The calling thread builds a tree of so few spheres, in a millisecond or two: another thread takes as long to start as
 // a tree of a thousand.
@@ -119,34 +123,25 @@ RayPiece& piece_of_thread() {
 std::int64_t rays_per_piece(const RayTree& tree, std::int64_t rays, RayOrder order) {
   const std::int64_t spheres = std::max<std::int64_t>(1, tree.spheres->file.spheres.size());
   if (is_brute(tree.tracer->engine())) return std::clamp<std::int64_t>(kMostTests / spheres, 1, kFewestRays);
+  if (tree.tracer->engine() == Engine::reference) return kMostRaysOfReference;
   const std::int64_t workers = tree.threads > 0 ? tree.threads : hardware_threads();
   if (order == RayOrder::any) return std::clamp((rays + workers - 1) / workers, kFewestRays, kMostScatteredRays);
   return std::clamp(rays / (workers * kPiecesPerThread), kFewestRays, kMostRaysInBlocks);
 }
 
-// Calls trace(span, first ray) for all pieces of the rays. Python's lock is held before and after, not meanwhile.
+// Calls trace(span, first ray, piece) for all pieces of `most` rays. Python's lock is held before and after, not
+// meanwhile.
 template <class Trace>
-void trace_in_pieces(const RayTree& tree, const RayArrays& rays, RayOrder order, const Trace& trace) {
-  const std::int64_t most = rays_per_piece(tree, rays.count, order);
+void trace_in_pieces(const RayTree& tree, const RayArrays& rays, std::int64_t most, const Trace& trace) {
   const std::int64_t pieces = (rays.count + most - 1) / most;
-  SignalWatch watch;
-  std::atomic<bool> no_memory{false};
-  {
-    const py::gil_scoped_release unlocked;
-    parallel_for(tree.threads, pieces, [&](std::int64_t piece) {
-      if (watch.cancelled() || no_memory) return;
+  do_query([&] {
+    watched_for(tree.threads, pieces, [&](std::int64_t piece) {
       const std::int64_t first = piece * most;
-      try {
-        trace(piece_of_thread().take(rays, tree.spheres->file.spheres.origin(), first,
-                                     std::min(most, rays.count - first)),
-              first, piece);
-      } catch (const std::bad_alloc&) {
-        no_memory = true;
-      }
+      trace(
+          piece_of_thread().take(rays, tree.spheres->file.spheres.origin(), first, std::min(most, rays.count - first)),
+          first, piece);
     });
-  }
-  watch.rethrow();
-  if (no_memory) throw std::bad_alloc();
+  });
 }
 
 // The tree of rays that see images. Null: they do not. bihive/_tree.py has checked that there are images.
@@ -196,13 +191,14 @@ py::tuple closest(const RayTree& tree, const py::array& origin, const py::array&
   const RayOrder order = order_of(in_blocks);
   const WideTree* const periodic = tree_of_images(tree, see_images);
   FirstWithoutEnd without_end;
-  trace_in_pieces(tree, rays, order, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-    if (periodic == nullptr)
-      tree.tracer->closest_hits(span, order, hits.part(first));
-    else if (!without_end.is_before(first))
-      without_end.take(first,
-                       tree.images->closest_hits(*periodic, span, hits.part(first), excluded_from(exclude, first)));
-  });
+  trace_in_pieces(
+      tree, rays, rays_per_piece(tree, rays.count, order), [&](const RaySpan& span, std::int64_t first, std::int64_t) {
+        if (periodic == nullptr)
+          tree.tracer->closest_hits(span, order, hits.part(first));
+        else if (!without_end.is_before(first))
+          without_end.take(first,
+                           tree.images->closest_hits(*periodic, span, hits.part(first), excluded_from(exclude, first)));
+      });
   value_of(without_end.status());
   return py::make_tuple(t, id);
 }
@@ -219,17 +215,18 @@ py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const p
   const RayOrder order = order_of(in_blocks);
   const WideTree* const periodic = tree_of_images(tree, see_images);
   FirstWithoutEnd without_end;
-  trace_in_pieces(tree, rays, order, [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-    if (periodic == nullptr)
-      tree.tracer->occluded(span, order, to + first);
-    else if (!without_end.is_before(first))
-      without_end.take(first, tree.images->occluded(*periodic, span, to + first, excluded_from(exclude, first)));
-  });
+  trace_in_pieces(
+      tree, rays, rays_per_piece(tree, rays.count, order), [&](const RaySpan& span, std::int64_t first, std::int64_t) {
+        if (periodic == nullptr)
+          tree.tracer->occluded(span, order, to + first);
+        else if (!without_end.is_before(first))
+          without_end.take(first, tree.images->occluded(*periodic, span, to + first, excluded_from(exclude, first)));
+      });
   value_of(without_end.status());
   return hidden;
 }
 
-// Three arrays with an entry for each hit: ray, t, id.
+// Three arrays with an entry for each hit: ray, t, id; and the first entry of each ray, and their number.
 py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::array& direction,
                     const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
                     const std::optional<py::array_t<std::int64_t>>& leaves,
@@ -238,10 +235,10 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
   const WideTree* const periodic = tree_of_images(tree, see_images);
   const WideTree& wide = wide_tree_for(tree, "all_hits");
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
-  const std::int64_t most = rays_per_piece(tree, rays.count, RayOrder::blocks);
+  const std::int64_t most = std::min(rays_per_piece(tree, rays.count, RayOrder::any), kMostRaysOfHits);
   std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
   FirstWithoutEnd without_end;
-  trace_in_pieces(tree, rays, RayOrder::blocks, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
+  trace_in_pieces(tree, rays, most, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
     std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
     if (periodic == nullptr)
       all_hits(wide, span, found);
@@ -257,11 +254,20 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
   py::array_t<double> t(size);
   std::int64_t *to_ray = ray.mutable_data(), *to_id = id.mutable_data();
   double* to_t = t.mutable_data();
+  py::array_t<std::int64_t> begin(static_cast<py::ssize_t>(rays.count + 1));
+  std::int64_t* const to_begin = begin.mutable_data();
+  std::int64_t next_ray = 0, next_hit = 0;
   for (std::vector<RayHit>& some : hits) {
-    for (const RayHit& hit : some) *to_ray++ = hit.ray, *to_t++ = hit.t, *to_id++ = hit.sphere_id;
+    for (const RayHit& hit : some) {
+      while (next_ray <= hit.ray) to_begin[next_ray++] = next_hit;
+      *to_ray++ = hit.ray, *to_t++ = hit.t, *to_id++ = hit.sphere_id;
+      ++next_hit;
+    }
     some = {};
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
-  return py::make_tuple(ray, t, id);
+  while (next_ray <= rays.count) to_begin[next_ray++] = next_hit;
+  return py::make_tuple(ray, t, id, begin);
 }
 
 // Arrays of the surface at each hit: position, normal, t_exit, and with `with_derivatives` those of HitDerivatives.
@@ -277,9 +283,7 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto rows = [&](std::vector<py::ssize_t> shape) {
     shape.insert(shape.begin(), static_cast<py::ssize_t>(hits));
-    py::array_t<double> made(shape);
-    std::fill_n(made.mutable_data(), made.size(), nan);
-    return made;
+    return py::array_t<double>(shape);
   };
   py::array_t<double> position = rows({3}), normal = rows({3}), exit = rows({});
   py::array_t<double> t_by_centre, t_by_radius, normal_by_centre, normal_by_radius;
@@ -303,10 +307,14 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
   const double* const all_t = t.data();
   const std::int64_t *const all_ids = id.data(), *const all_rays = ray ? ray->data() : nullptr;
   {
-    const py::gil_scoped_release unlocked;
     const std::int64_t chunks = (hits + kFewestRays - 1) / kFewestRays;
-    parallel_for(tree.threads, chunks, [&](std::int64_t chunk) {
-      for (std::int64_t i = chunk * kFewestRays; i < std::min(hits, (chunk + 1) * kFewestRays); ++i) {
+    const auto find = [&](std::int64_t chunk) {
+      const std::int64_t begin = chunk * kFewestRays, count = std::min(kFewestRays, hits - begin);
+      for (const auto& [to, width] :
+           {std::pair(to_position, 3), std::pair(to_normal, 3), std::pair(to_exit, 1), std::pair(to_t_centre, 3),
+            std::pair(to_t_radius, 1), std::pair(to_n_centre, 9), std::pair(to_n_radius, 3)})
+        if (to != nullptr) std::fill_n(to + width * begin, width * count, nan);
+      for (std::int64_t i = begin; i < begin + count; ++i) {
         if (all_ids[i] < 0) continue;
         const std::int64_t of = all_rays != nullptr ? all_rays[i] : i;
         if (of < 0 || of >= rays.count) {
@@ -336,7 +344,8 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
         for (int row = 0; row < 3; ++row) put(by.normal_by_centre[row], to_n_centre + 9 * i + 3 * row);
         put(by.normal_by_radius, to_n_radius + 3 * i);
       }
-    });
+    };
+    do_query([&] { watched_for(tree.threads, chunks, find); });
   }
   if (have_changed)
     fail_usage("the rays are not those of the query any more: their arrays have changed",

@@ -1,5 +1,9 @@
 #include "waiting.h"
 
+#include <exception>
+
+#include "bihive/base/watch.h"
+
 namespace py = pybind11;
 
 namespace bihive::python {
@@ -38,18 +42,23 @@ void wait_for(const std::function<void(Work&)>& work, const py::object& progress
   if (!progress.is_none()) progress(1.0);
 }
 
-bool SignalWatch::cancelled() {
-  if (std::this_thread::get_id() != caller_ || thrown_) return cancel_.cancelled();
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_look_ < kBetweenLooks) return cancel_.cancelled();
-  last_look_ = now;
-  thrown_ = look(nullptr, 0);
-  if (thrown_) cancel_.cancel();
-  return cancel_.cancelled();
-}
-
-void SignalWatch::rethrow() const {
-  if (thrown_) std::rethrow_exception(thrown_);
+void do_query(const std::function<void()>& query) {
+  std::exception_ptr of_signal, of_query;
+  {
+    const py::gil_scoped_release unlocked;
+    const Watch watch({}, nullptr, [&](double) {
+      of_signal = look(nullptr, 0);
+      return of_signal == nullptr;
+    });
+    WatchedWork work;
+    try {
+      query();
+    } catch (...) {
+      of_query = std::current_exception();
+    }
+  }
+  if (of_signal) std::rethrow_exception(of_signal);
+  if (of_query) std::rethrow_exception(of_query);
 }
 
 }  // namespace bihive::python

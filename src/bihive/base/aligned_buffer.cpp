@@ -1,11 +1,14 @@
 #include "bihive/base/aligned_buffer.h"
 
+#include <cstdlib>
 #include <new>
 
 #include "bihive/base/memory.h"
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#elif defined(_WIN32)
+#include <malloc.h>
 #endif
 
 namespace bihive {
@@ -31,10 +34,22 @@ void* allocate_aligned(std::size_t bytes) {
   const std::size_t rounded = rounded_up(bytes);
   // The kernel would give a large block that a control group does not allow, and kill the process later.
   if (bytes >= kHugePage && !check_memory(0, "a block", 0, static_cast<double>(rounded))) throw std::bad_alloc();
+#if defined(_WIN32)
+  void* const data = _aligned_malloc(rounded, alignment_of(bytes));
+#else
   void* const data = std::aligned_alloc(alignment_of(bytes), rounded);
+#endif
   if (data == nullptr) throw std::bad_alloc();
   prefer_huge_pages(data, rounded);
   return data;
+}
+
+void free_aligned(void* data) {
+#if defined(_WIN32)
+  _aligned_free(data);
+#else
+  std::free(data);
+#endif
 }
 
 void prefer_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
@@ -48,7 +63,7 @@ void prefer_huge_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t
 
 void AlignedBuffer::reserve(std::size_t bytes) {
   if (bytes <= capacity_) return;
-  std::free(data_);
+  free_aligned(data_);
   data_ = nullptr;
   capacity_ = 0;
   data_ = allocate_aligned(bytes);

@@ -3,14 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <utility>
 
 namespace bihive {
 
-/// A block of at least `bytes`, for std::free(). Large ones start and end on huge-page boundaries. Throws
+/// A block of at least `bytes`, for free_aligned(). Large ones start and end on huge-page boundaries. Throws
 /// std::bad_alloc.
 void* allocate_aligned(std::size_t bytes);
+/// Takes null too.
+void free_aligned(void* data);
 
 /// Requests huge pages for those parts of a large block that fill them. Call it before the memory is first written,
 /// because a huge page takes a moment then. Does nothing for small blocks, and on systems without huge pages.
@@ -28,7 +29,7 @@ class AlignedBuffer {
     std::swap(capacity_, other.capacity_);
     return *this;
   }
-  ~AlignedBuffer() { std::free(data_); }
+  ~AlignedBuffer() { free_aligned(data_); }
 
   /// Makes room for at least `bytes`. The content is lost if the block has to grow. Throws std::bad_alloc.
   void reserve(std::size_t bytes);

@@ -1,11 +1,13 @@
 #include "bihive/base/memory.h"
 
-#include <unistd.h>
-
-#ifdef __EMSCRIPTEN__
+#if defined(__EMSCRIPTEN__)
 #include <emscripten/heap.h>
+#elif defined(_WIN32)
+#include <windows.h>
 #else
+#define BIHIVE_HAS_LIMITS 1  // of processes and control groups
 #include <sys/resource.h>
+#include <unistd.h>
 #endif
 
 #include <algorithm>
@@ -25,7 +27,7 @@ void lower(MemoryLimit& limit, double bytes, const char* whose) {
   if (bytes < limit.bytes) limit = {bytes, whose};
 }
 
-#ifndef __EMSCRIPTEN__
+#ifdef BIHIVE_HAS_LIMITS
 
 // The numbers of /proc/self/statm, in bytes: address space in use, and data that is not shared, with the stack.
 struct InUse {
@@ -72,8 +74,13 @@ void lower_by_process(MemoryLimit& limit) {
 
 // The machine's memory and BIHIVE_MEMORY, which do not tell how much is in use.
 MemoryLimit limit_of_all() {
-#ifdef __EMSCRIPTEN__
+#if defined(__EMSCRIPTEN__)
   MemoryLimit limit{static_cast<double>(emscripten_get_heap_max()), "a page has"};
+#elif defined(_WIN32)
+  MEMORYSTATUSEX memory{};
+  memory.dwLength = sizeof memory;
+  GlobalMemoryStatusEx(&memory);
+  MemoryLimit limit{static_cast<double>(memory.ullTotalPhys), "this machine has"};
 #else
   MemoryLimit limit{static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)),
                     "this machine has"};
@@ -89,7 +96,7 @@ MemoryLimit limit_of_all() {
 // The limits of control groups and of the process, less what is in use.
 MemoryLimit limit_of_more() {
   MemoryLimit limit{HUGE_VAL, ""};
-#ifndef __EMSCRIPTEN__
+#ifdef BIHIVE_HAS_LIMITS
   limit = memory_left_by_own_groups();
   lower_by_process(limit);
 #endif
@@ -128,7 +135,7 @@ Error no_memory_for(const std::string& what) {
 }
 
 const char* turn_group_limit_into_failing_allocations(double allowance_bytes) {
-#ifndef __EMSCRIPTEN__
+#ifdef BIHIVE_HAS_LIMITS
   const MemoryLimit left = memory_left_by_own_groups();
   const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   rlimit said{};

@@ -68,7 +68,7 @@ Result<std::string> read_open_file(int file, const std::string& name, bool* grew
   std::string bytes;
   if (has_size) bytes.reserve(static_cast<std::size_t>(most));
   std::string piece(kPiece, '\0');
-  const WatchedWork work;
+  WatchedWork work;
   while (true) {
     if (work.cancelled()) return cancelled_error();
     const std::uint64_t left = most - bytes.size();

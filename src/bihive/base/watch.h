@@ -8,8 +8,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <mutex>
+#include <thread>
 
 #include "bihive/base/cancel.h"
 #include "bihive/base/result.h"
@@ -24,19 +26,25 @@ Error cancelled_error();
 bool is_cancelled(const Error& error);
 
 /// As long as it lives, calls on its thread are watched: read_spheres(), load_scene(), Frames, WideBuilder::build(),
-/// Tracer::build(), render() and its relatives if they get neither a callback nor a token of their own.
+/// Tracer::build(), render() and its relatives if they get neither a callback nor a token of their own, and the queries
+/// that return a Status or a Result (wide/queries.h, wide/point_queries.h).
 ///
-/// - The callback gets the finished share of each call, an estimate by bytes, spheres or pixels that starts again with
+/// - The callback gets the finished share of each call, an estimate by bytes, spheres, pixels, rays or points that
+/// starts again with
 ///   the next call and never falls within one. It runs on any thread that does the work, at most fifty times per second
 ///   and not after the call has returned; short calls may never call it, and those that succeed after they did end with
 ///   1. It must not throw, nor call what is watched.
 /// - Once the token is set, a call ends soon with cancelled_error(). There is no answer then; files, sets, trees and
 ///   builders that existed before are as they were, and nothing is written.
 ///
+/// `look`, for callers whose functions belong to one thread, as those of other languages do: called by this thread
+/// alone, about twenty times per second while it works in a query, with the finished share. False cancels the query.
+///
 /// The latest Watch of a thread counts. Threads do not inherit it.
 class Watch {
  public:
-  explicit Watch(ProgressCallback progress, const CancelToken* cancel = nullptr);
+  explicit Watch(ProgressCallback progress, const CancelToken* cancel = nullptr,
+                 std::function<bool(double done)> look = {});
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -47,6 +55,7 @@ class Watch {
 
   ProgressCallback progress_;
   const CancelToken* cancel_;
+  std::function<bool(double done)> look_;
   Watch* outer_;
 };
 
@@ -65,12 +74,12 @@ class WatchedWork {
   bool is_nested() const { return outer_ != nullptr; }
   bool is_watched() const { return watch_ != nullptr; }
 
-  /// These are for any thread.
-  bool cancelled() const { return cancel() != nullptr && cancel()->cancelled(); }
+  /// These are for any thread. cancelled() calls the look of the Watch if it is due.
+  bool cancelled();
   void report(double done);
   const CancelToken* cancel() const { return watch_ != nullptr ? watch_->cancel_ : nullptr; }
   /// Throws Cancelled if the token is set.
-  void stop_if_cancelled() const;
+  void stop_if_cancelled();
 
  private:
   Watch* watch_;  // null: nobody watches
@@ -79,6 +88,12 @@ class WatchedWork {
   std::mutex mutex_;
   double reported_ = 0;
   std::chrono::steady_clock::time_point last_report_;
+
+  bool look_if_due();
+  std::thread::id thread_;  // that of the Watch
+  std::chrono::steady_clock::time_point last_look_;
+  std::atomic<double> done_{0};
+  std::atomic<bool> stopped_{false};  // by look
 };
 
 /// Thrown by stop_if_cancelled(), for the function that made the outermost WatchedWork: it returns cancelled_error().
@@ -88,6 +103,15 @@ struct Cancelled {};
 void stop_if_cancelled();
 /// The same, and reports that this share of the thread's WatchedWork is done.
 void stop_if_cancelled(double done);
+
+/// parallel_for() (base/parallel.h) as a section of the thread's WatchedWork: its progress goes from `begin` to `end`
+/// as calls of body(i) return, and no more calls begin once it is cancelled. In the body stop_chunk_if_cancelled() ends
+/// the call, on whichever thread it runs. The body may throw Cancelled and std::bad_alloc, which are thrown here after
+/// all calls have ended. So only a call that catches Cancelled may use it.
+void watched_for(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body, double begin = 0,
+                 double end = 1);
+/// Throws Cancelled if this thread runs a call of a watched_for() that is cancelled. Elsewhere it does nothing.
+void stop_chunk_if_cancelled();
 
 /// Suspends the thread's Watch as long as it lives. parallel_for() needs that: its bodies must not throw, as cancelled
 /// calls do.

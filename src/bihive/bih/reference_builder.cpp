@@ -45,20 +45,35 @@ struct EmptyHalf {
   float clip = 0;
 };
 
+// Spheres or boxes: their number, and the box of each.
+std::int64_t size_of(const SphereSet& spheres) {
+  return spheres.size();
+}
+std::int64_t size_of(const std::vector<Aabb>& boxes) {
+  return static_cast<std::int64_t>(boxes.size());
+}
+Aabb box_of(const SphereSet& spheres, std::int64_t id) {
+  return spheres.stored_box(id);
+}
+Aabb box_of(const std::vector<Aabb>& boxes, std::int64_t id) {
+  return boxes[static_cast<std::size_t>(id)];
+}
+
+template <class Spheres>
 class Builder {
  public:
-  Builder(const SphereSet& spheres, const BuildParameters& parameters) : spheres_(spheres) {
+  Builder(const Spheres& spheres, const BuildParameters& parameters) : spheres_(spheres) {
     tree_.parameters = parameters;
   }
 
   Tree build() {
     // Start with all spheres in one range and their common box.
-    const std::int64_t count = spheres_.size();
+    const std::int64_t count = size_of(spheres_);
     spheres_read_ = count;
     tree_.sphere_ids.resize(static_cast<std::size_t>(count));
     for (std::int64_t id = 0; id < count; ++id) {
       tree_.sphere_ids[static_cast<std::size_t>(id)] = id;
-      tree_.aabb.add(spheres_.stored_box(id));
+      tree_.aabb.add(box_of(spheres_, id));
     }
     tree_.nodes.emplace_back();
     jobs_.push_back({0, 0, count, tree_.aabb, tree_.aabb, 1});
@@ -134,7 +149,7 @@ class Builder {
     std::int64_t right = job.last;
     while (left < right) {
       std::int64_t& id = tree_.sphere_ids[static_cast<std::size_t>(left)];
-      const Aabb box = spheres_.stored_box(id);
+      const Aabb box = box_of(spheres_, id);
       const float lo = box.lo[axis];
       const float hi = box.hi[axis];
       part.lowest = std::min(part.lowest, lo);
@@ -219,7 +234,7 @@ class Builder {
     jobs_.push_back(left);
   }
 
-  const SphereSet& spheres_;
+  const Spheres& spheres_;
   Tree tree_;
   std::vector<Job> jobs_;
   std::int64_t spheres_read_ = 0;
@@ -235,6 +250,12 @@ Tree build_reference_tree(const SphereSet& spheres, const BuildParameters& param
   Tree tree = builder.build();
   if (spheres_read != nullptr) *spheres_read = builder.spheres_read();
   return tree;
+}
+
+Tree build_reference_tree(const std::vector<Aabb>& boxes, const BuildParameters& parameters) {
+  BIHIVE_CHECK_GE(parameters.max_prims, 1);
+  BIHIVE_CHECK_GE(parameters.max_depth, 1);
+  return Builder(boxes, parameters).build();
 }
 
 }  // namespace bihive

@@ -1,8 +1,11 @@
 // The reference builder: the project's definition of "a BIH with MAX_PRIMS and MAX_TREE_DEPTH".
 #pragma once
 
+#include <vector>
+
 #include "bihive/bih/tree.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/math/aabb.h"
 
 namespace bihive {
 
@@ -13,5 +16,8 @@ namespace bihive {
 /// gets the work, counted: each sphere once for every pass over it.
 Tree build_reference_tree(const SphereSet& spheres, const BuildParameters& parameters,
                           std::int64_t* spheres_read = nullptr);
+
+/// The same tree of anything that has boxes: `sphere_ids` are positions in the list.
+Tree build_reference_tree(const std::vector<Aabb>& boxes, const BuildParameters& parameters);
 
 }  // namespace bihive

@@ -100,6 +100,7 @@ void SphereAttributes::keep_only(const std::vector<std::uint8_t>& kept) {
   keep_entries(clips, kept);
   for (NamedNumbers& column : numbers) keep_entries(column.values, kept);
   for (NamedTexts& column : texts) keep_entries(column.text_of_sphere, kept);
+  bonds.keep_only(kept);
 }
 
 SphereAttributes SphereAttributes::part(const std::vector<std::int64_t>& ids) const {
@@ -113,13 +114,14 @@ SphereAttributes SphereAttributes::part(const std::vector<std::int64_t>& ids) co
   made.clips = entries_of_part(clips, ids);
   for (const NamedNumbers& column : numbers) made.numbers.push_back({column.name, entries_of_part(column.values, ids)});
   for (const NamedTexts& column : texts) made.texts.push_back(texts_of_part(column, ids));
+  made.bonds = bonds.part(ids);
   return made;
 }
 
 std::int64_t SphereAttributes::allocated_bytes() const {
   std::int64_t bytes = bytes_of_column(element) + bytes_of_column(type) + bytes_of_column(colour) +
                        bytes_of_column(opacity) + bytes_of_column(outline_px) + bytes_of_column(crease) +
-                       bytes_of_column(clips);
+                       bytes_of_column(clips) + bonds.allocated_bytes();
   for (const NamedNumbers& column : numbers) bytes += bytes_of_column(column.values);
   for (const NamedTexts& column : texts) {
     bytes += bytes_of_column(column.text_of_sphere) + bytes_of_column(column.texts);

@@ -1,4 +1,5 @@
-// Properties of spheres beyond position and radius: elements, types, colours, and the named columns of their file.
+// Properties of spheres beyond position and radius: elements, types, colours, bonds, and the named columns of their
+// file.
 #pragma once
 
 #include <cstdint>
@@ -51,6 +52,39 @@ class TextCollector {
   std::unordered_map<std::string, std::int32_t> position_of_text_;
 };
 
+/// What a file says of a bond beside its ends.
+enum class BondOrder : std::uint8_t { unknown, single, double_bond, triple, aromatic };
+
+/// Two different spheres by their ids, the smaller one first.
+struct StatedBond {
+  std::int32_t one = 0, other = 0;
+  BondOrder order = BondOrder::unknown;
+
+  friend bool operator==(const StatedBond& a, const StatedBond& b) {
+    return a.one == b.one && a.other == b.other && a.order == b.order;
+  }
+};
+
+struct StatedBonds {
+  std::vector<StatedBond> list;  ///< ascending by `one`, then `other`, each pair once
+  bool are_all = false;          ///< the file states some, and its format leaves none out
+
+  bool empty() const { return list.empty(); }
+
+  /// Appends a bond, in any order of its ends. A sphere has no bond to itself.
+  void add(std::int32_t one, std::int32_t other, BondOrder order = BondOrder::unknown);
+  /// Brings the list into its order after add(). Of a pair that was added several times the largest order counts.
+  void put_in_order();
+
+  /// Removes the bonds of all spheres whose mask is 0, and counts the others anew.
+  void keep_only(const std::vector<std::uint8_t>& kept);
+  /// Those between the spheres of these ids, which become 0, 1, 2 ... Where ids are named several times, the k-th
+  /// naming of one end has a bond to the k-th of the other. Takes time by the number of ids and of their bonds alone.
+  StatedBonds part(const std::vector<std::int64_t>& ids) const;
+
+  std::int64_t allocated_bytes() const { return static_cast<std::int64_t>(list.capacity() * sizeof(StatedBond)); }
+};
+
 /// The attributes of the spheres in a file. Each array is empty (not known) or has one entry for each sphere. A number
 /// and a text may share a name: `type` of a file whose types are labels.
 struct SphereAttributes {
@@ -63,6 +97,7 @@ struct SphereAttributes {
   std::vector<std::uint64_t> clips;   ///< bit k: clip k of the scene acts on the sphere
   std::vector<NamedNumbers> numbers;
   std::vector<NamedTexts> texts;
+  StatedBonds bonds;
 
   /// The column of that name, or nullptr.
   const NamedNumbers* find_numbers(std::string_view name) const;
@@ -73,7 +108,7 @@ struct SphereAttributes {
   void keep_only(const std::vector<std::uint8_t>& kept);
 
   /// Those of the spheres of these ids, in their order, which may name a sphere several times. Takes time by the number
-  /// of ids alone.
+  /// of ids and of their bonds alone.
   SphereAttributes part(const std::vector<std::int64_t>& ids) const;
 
   /// Bytes held by all columns, with their distinct texts.

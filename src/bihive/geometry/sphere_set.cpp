@@ -339,14 +339,21 @@ Status SphereSet::replicate(const std::array<Vec3d, 3>& vectors, const std::arra
 
   // Bring it into [1/2, 1] by another power of two, which is exact but for the smallest numbers of binary32. Like
   // any sum with a shift, that with 0 makes -0 to 0.
-  const int exponent = scale_exponent_for(extent);
+  change_exponent(scale_exponent_for(extent));
+  images_ = images;
+  return Done{};
+}
+
+void SphereSet::make_room(double extent) {
+  if (extent * scale() > 1) change_exponent(scale_exponent_for(extent));
+}
+
+void SphereSet::change_exponent(int exponent) {
   const int change = exponent - scale_exponent_;
   for (auto* values : {&x_, &y_, &z_, &r_})
     for (float& value : *values) value = static_cast<float>(std::ldexp(double(value), change) + 0.0);
   scale_exponent_ = exponent;
-  images_ = images;
   count_vanishing_radii();
-  return Done{};
 }
 
 Status SphereSet::keep_cell_of(const SphereSet& other) {

@@ -139,6 +139,10 @@ class SphereSet {
   /// The same copies and cell as `other` has; for a set that was made from its spheres.
   Status keep_cell_of(const SphereSet& other);
 
+  /// Makes sure that points up to this far from the origin along an axis (world units) have coordinates of at most 1 in
+  /// stored units, which may change by a power of two: exact but for the smallest numbers of binary32.
+  void make_room(double extent);
+
   /// The periodic cell, if one is known.
   std::optional<Cell>& cell() { return cell_; }
   const std::optional<Cell>& cell() const { return cell_; }
@@ -205,6 +209,7 @@ class SphereSet {
 
   Vec3d stored_image_centre(std::int64_t id) const;
   void count_vanishing_radii();
+  void change_exponent(int exponent);
 
   template <class Coordinates, class Radii>
   static Result<WorldEnds> ends_of(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,

@@ -41,6 +41,7 @@ struct CutRay {
   explicit CutRay(const ScaledRay& entering) : ray(entering) {}
 
   ScaledRay ray;
+  bool leaves_clip = false;   ///< the ray exits the boundary of a clip
   bool leaves_plane = false;  ///< a flat cap
   PlaneKey plane;             ///< of this cap
   bool to_front = false;      ///< the side to which the ray goes
@@ -58,6 +59,7 @@ class StoredClip {
   /// From a clip in local coordinates. `scale` is the scale of the sphere set, a power of two.
   StoredClip(const Clip& clip, double scale);
 
+  bool is_plane() const { return kind_ == Kind::plane; }
   bool is_round() const { return kind_ == Kind::sphere; }
   /// Whether it is a ball with this centre and radius.
   bool is_ball(Vec3d centre, double radius) const { return is_round() && lo_ == centre && radius_ == radius; }

@@ -26,4 +26,9 @@ double van_der_waals_radius(int atomic_number) {
   return double(gemmi::Element(atomic_number).vdw_r());
 }
 
+double covalent_radius(int atomic_number) {
+  if (atomic_number < 1 || atomic_number > 118) return 0;
+  return double(gemmi::Element(atomic_number).covalent_r());
+}
+
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// Chemical elements: symbols, atomic numbers, van der Waals radii.
+// Chemical elements: symbols, atomic numbers, van der Waals and covalent radii.
 #pragma once
 
 #include <string>
@@ -14,5 +14,8 @@ std::string element_symbol(int atomic_number);
 
 /// Van der Waals radius in Angstrom, from gemmi's table; 0 if the number is not 1 to 118.
 double van_der_waals_radius(int atomic_number);
+
+/// Covalent radius of a single bond in Angstrom [Cordero2008], from gemmi's table; 0 if the number is not 1 to 118.
+double covalent_radius(int atomic_number);
 
 }  // namespace bihive

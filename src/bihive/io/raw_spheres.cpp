@@ -9,10 +9,11 @@
 
 namespace bihive {
 
-void add_bond(RawSpheres& spheres, std::optional<std::int64_t> one, std::optional<std::int64_t> other) {
+void add_bond(RawSpheres& spheres, std::optional<std::int64_t> one, std::optional<std::int64_t> other,
+              BondOrder order) {
   const auto count = static_cast<std::int64_t>(spheres.size());
   if (!one || !other || *one < 1 || *other < 1 || *one > count || *other > count) return;
-  spheres.bonds.push_back({static_cast<std::int32_t>(*one - 1), static_cast<std::int32_t>(*other - 1)});
+  spheres.attributes.bonds.add(static_cast<std::int32_t>(*one - 1), static_cast<std::int32_t>(*other - 1), order);
 }
 
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames) {

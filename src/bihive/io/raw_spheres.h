@@ -1,7 +1,6 @@
 // The content of a file as its reader finds it, before the steps that all formats share (io/assemble/finish.h).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,7 +23,7 @@ enum class RowIds {
 
 /// Centres in the file's own length unit, in file order, or by id where rows have ids. They are finite: the reader
 /// checks that, because it knows the line. `r` is either empty (the file gives no radii) or has one finite radius >= 0
-/// for each sphere. Attributes as in SphereSet.
+/// for each sphere. Attributes as in SphereSet, with bonds in any order.
 struct RawSpheres {
   std::string format;  ///< as in SphereFile
   std::vector<double> x, y, z, r;
@@ -32,10 +31,6 @@ struct RawSpheres {
   bool assumed_radii = false;            ///< as SphereFile::assumed_radii
   std::optional<double> unknown_radius;  ///< for spheres with neither radius nor known element; >= 0
   Assemblies assemblies;
-  /// Pairs of spheres between which the file states a bond; without any it may still have some. They serve
-  /// Wrapping::unwrap alone.
-  std::vector<std::array<std::int32_t, 2>> bonds;
-  bool bonds_are_some = false;  ///< the format leaves out the bonds within residues of known kinds
   std::optional<Cell> cell;
   std::optional<double> time_ps;     ///< picoseconds
   std::optional<std::int64_t> step;  ///< of the simulation
@@ -49,7 +44,8 @@ struct RawSpheres {
 
 /// Adds a bond between two spheres, each by its position in the file, from 1. Without effect if either is none of the
 /// spheres that were read.
-void add_bond(RawSpheres& spheres, std::optional<std::int64_t> one, std::optional<std::int64_t> other);
+void add_bond(RawSpheres& spheres, std::optional<std::int64_t> one, std::optional<std::int64_t> other,
+              BondOrder order = BondOrder::unknown);
 
 /// The error for a frame that the file does not have.
 Error no_such_frame(const std::string& file, std::int64_t frame, std::int64_t frames);

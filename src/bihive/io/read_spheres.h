@@ -39,7 +39,10 @@ struct ReadOptions {
   std::optional<std::array<bool, 3>> cell_periodic;  ///< Cell::periodic, in place of the file's
   bool periodic = true;                              ///< distances know the cell's images; false: Cell::periodic is not
   Wrapping wrapping = Wrapping::none;                ///< needs a cell
-  std::array<std::int32_t, 3> replicate{1, 1, 1};    ///< copies along the cell's vectors (SphereSet::replicate)
+  /// Adds the column exposed_area (docs/measures.md), for a probe of this radius >= 0 in world units.
+  std::optional<double> exposed_area;
+  bool exposed_area_periodic = false;              ///< in it, the cell's images cover spheres too
+  std::array<std::int32_t, 3> replicate{1, 1, 1};  ///< copies along the cell's vectors (SphereSet::replicate)
 };
 
 /// How the warning begins where SphereFile::assumed_radii.

@@ -16,6 +16,9 @@
 
 namespace bihive {
 
+/// Inputs that a control is shown for.
+enum class ReadingOf { scenarios_and_files, files, molecules, frames, cells };
+
 struct ReadingSetting {
   std::string_view id = "";           ///< "radius_scale"
   std::string_view value_name = "";   ///< of its value in help; empty: a flag
@@ -24,6 +27,10 @@ struct ReadingSetting {
   /// Works where ranks read chunks of a file each; if not, one rank reads all of it.
   bool with_chunks = false;
   std::vector<std::string_view> excludes = {};  ///< ids of other settings
+  std::string_view label = "";                  ///< of its control in the page; empty: it has none there
+  std::string_view empty_means = "";            ///< in an empty control
+  ReadingOf shown_for = ReadingOf::files;       ///< the inputs for which it has a control
+  bool is_number = false;                       ///< from 0
   /// From the text of a command line; that of a flag is empty or "true". Error: the expected and the found text.
   Status (*take)(ReadOptions& options, const std::string& text) = nullptr;
   /// For reports: a key, and the value that `options` have, as JSON.

@@ -185,14 +185,7 @@ class ColumnsOut {
       for (const char c : text) out += c == ' ' || c == '\t' ? '_' : c;
       return;
     }
-    const bool quoted = text.find_first_of(",;\"\t") != std::string::npos || text != trim(text);
-    if (!quoted) {
-      out += text;
-      return;
-    }
-    out += '"';
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    out += '"';
+    out += csv_field(text);
   }
 
   // A name that no other column has, that means nothing else in the format, and that breaks no header.
@@ -242,12 +235,7 @@ std::string header_of_extended_xyz(const std::vector<OutColumn>& columns) {
 
 std::string header_of_csv(const std::vector<OutColumn>& columns) {
   std::string header;
-  for (const OutColumn& column : columns) {
-    std::string name;
-    for (const char c : column.name) name += c == '"' ? "\"\"" : std::string(1, c);
-    const bool quoted = name.find_first_of(",;\"\t") != std::string::npos || name != trim(name);
-    header += (header.empty() ? "" : ",") + (quoted ? '"' + name + '"' : name);
-  }
+  for (const OutColumn& column : columns) header += (header.empty() ? "" : ",") + csv_field(column.name);
   return header + '\n';
 }
 
@@ -259,6 +247,13 @@ std::string header_of_ply(const std::vector<OutColumn>& columns, std::int64_t co
 }
 
 }  // namespace
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",;\"\t\r\n") == std::string::npos && text == trim(text)) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
 
 WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format) {
   ColumnsOut table(spheres, format);

@@ -26,4 +26,7 @@ struct WrittenSpheres {
 /// where a format has no place for blanks or empty ones; `left_out` says so. docs/formats.md#writing lists the columns.
 WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format);
 
+/// A text as a field of a CSV file: in quotes where its characters need them, whichever separator a reader expects.
+std::string csv_field(const std::string& text);
+
 }  // namespace bihive

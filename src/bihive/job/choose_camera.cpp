@@ -1,6 +1,5 @@
 #include "bihive/job/choose_camera.h"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -9,11 +8,11 @@
 #include "bihive/job/best_side.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/zoom_camera.h"
-#include "bihive/math/elementary.h"
 #include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
 #include "bihive/scene/principal_side.h"
+#include "bihive/scene/wide_angle.h"
 
 namespace bihive {
 namespace {
@@ -51,14 +50,6 @@ void refuse_bad(const Camera& camera, const PictureRequest& request) {
   if (request.fov_deg && *request.fov_deg < kTinyAngle && !request.eye)
     fail_setting("fov", ": with such a small angle the camera would be too far away", "choose a larger angle");
   fail_usage(status.error().message, status.error().hint);
-}
-
-// Wide pictures have a smaller angle than usual: with 60 degrees along the longer side, spheres at its ends look 15 %
-// too wide (1 / cos 30).
-double angle_for_wide_pictures(double fov_deg, const RenderSettings& settings) {
-  constexpr double kMostDeg = 60;
-  const auto [shorter, longer] = std::minmax(settings.width_px, settings.height_px);
-  return std::min(fov_deg, 2 * atan_deg(tan_deg(kMostDeg / 2) * shorter / longer));
 }
 
 double focus_of(const Focus& wanted, const SphereSet& spheres, const Camera& camera) {
@@ -121,7 +112,8 @@ Camera choose_camera(const Input& input, const PictureRequest& request, const Re
     if (request.up && !user_places) side = with_up(side, *request.up, request.view_from.has_value());
     if (request.turn && !user_places) side = turned(side, *request.turn);
     // With the user's own eye point, the angle decides how much is visible.
-    if (!request.fov_deg && !user_places) camera.fov_deg = angle_for_wide_pictures(camera.fov_deg, settings);
+    if (!request.fov_deg && !user_places)
+      camera.fov_deg = angle_for_picture(camera.fov_deg, settings.width_px, settings.height_px);
     const Lens lens{camera.fov_deg, request.eye ? Projection::perspective : projection};
     // An orthographic picture is the same from any distance; before all spheres nothing is cut open.
     const bool goes_near = request.fit && projection == Projection::perspective;

@@ -23,10 +23,13 @@
 #include "bihive/render/memory.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/stereo.h"
+#include "bihive/scene/arrows.h"
+#include "bihive/scene/bonds.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/legend.h"
 #include "bihive/scene/show_density.h"
 #include "bihive/scene/title_text.h"
+#include "bihive/scene/traces.h"
 #include "bihive/settings/check_picture.h"
 #include "bihive/settings/picture_report.h"
 
@@ -135,6 +138,96 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   return settings;
 }
 
+// The sticks that scene and user ask for.
+Sticks choose_sticks(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
+  PictureSettings picture = scene.picture;
+  request.picture.apply_to(picture);
+  const bool any = picture.sticks.bonds != Bonds::none;
+  for (const char* const id : {"bond_reach", "stick_radius", "ball_scale"})
+    if (!any && request.picture.has(id))
+      fail_setting(id, " is for pictures with bonds, and this one has none", "add " + setting_name("bonds") + " auto");
+  if (picture.sticks.bonds == Bonds::file && request.picture.has("bond_reach"))
+    fail_setting("bond_reach", " is for bonds by distance", "add " + setting_name("bonds") + " auto");
+  if (any && whole != nullptr)
+    fail_setting("bonds", " are not found between spheres that are distributed over ranks",
+                 "add " + setting_name("bonds") + " none");
+  return picture.sticks;
+}
+
+constexpr const char* kOfArrows[] = {"arrow_select", "arrow_scale", "arrow_radius", "arrow_pivot", "arrow_colour"};
+
+constexpr const char* kOfTraces[] = {"trace_select", "trace_radius", "trace_atoms"};
+
+// The tubes that scene and user ask for.
+Traces choose_traces(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
+  PictureSettings picture = scene.picture;
+  request.picture.apply_to(picture);
+  Traces& traces = picture.traces;
+  for (const char* const id : kOfTraces)
+    if (!traces.any() && request.picture.has(id))
+      fail_setting(id, " is for pictures with tubes, and this one has none", "add " + setting_name("trace") + " chain");
+  if (traces.any() && whole != nullptr)
+    fail_setting("trace", ": no tubes are drawn through spheres that are distributed over ranks",
+                 "leave " + setting_name("trace") + " out");
+  return traces;
+}
+
+void draw_traces(const Traces& traces, Scene& scene) {
+  const Result<AddedTraces> added = add_traces(scene, traces);
+  if (!added) fail_usage(added.error().message, added.error().hint);
+  if (added->tubes == 0) warn("there is no tube: no two beads in a row are near each other");
+}
+
+// The arrows that scene and user ask for.
+Arrows choose_arrows(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
+  PictureSettings picture = scene.picture;
+  request.picture.apply_to(picture);
+  Arrows& arrows = picture.arrows;
+  for (const char* const id : kOfArrows)
+    if (!arrows.any() && request.picture.has(id))
+      fail_setting(id, " is for pictures with arrows, and this one has none",
+                   "add " + setting_name("arrows") + " VX,VY,VZ");
+  if (arrows.any() && whole != nullptr)
+    fail_setting("arrows", " are not drawn on spheres that are distributed over ranks",
+                 "leave " + setting_name("arrows") + " out");
+  return arrows;
+}
+
+void draw_arrows(const Arrows& arrows, bool is_of_film, Scene& scene) {
+  const Result<AddedArrows> done = add_arrows(scene, arrows);
+  if (!done) fail_usage(done.error().message, done.error().hint);
+  const AddedArrows& added = *done;
+  // Pictures of one film would have different ranges.
+  if (is_of_film && scene.arrows_coloured_by && scene.arrows_coloured_by->range) {
+    const Result<ColourBy> asked_for = colour_by_from_text(arrows.colour);
+    if (asked_for && !asked_for->range)
+      fail_setting("arrow_colour", " has another range in each picture of a film",
+                   "add one: " + asked_for->attribute + ":" + "MIN,MAX");
+  }
+  if (is_of_film) return;
+  if (added.count == 0)
+    warn("no sphere has an arrow: " +
+         std::string(added.unknown > 0 ? "their vectors are unknown" : "all vectors are 0"));
+  else if (added.unknown > 0)
+    warn(fmt::format("{} sphere{} no arrow: the vector is unknown", added.unknown,
+                     added.unknown == 1 ? " has" : "s have"));
+  if (added.count > 0 && added.inside == added.count)
+    warn(
+        fmt::format("all arrows end inside their spheres, the longest {:.3g} from its tail in one of radius {:.3g}: "
+                    "{} F makes them longer",
+                    added.longest, added.radius_of_longest, setting_name("arrow_scale")));
+}
+
+void done_or_fail_bonds(const Status& status) {
+  if (!status)
+    fail_setting("bonds", ": " + status.error().message,
+                 status.error().hint.empty() ? "add " + setting_name("bonds") + " none" : status.error().hint);
+}
+
+std::string without_sticks() {
+  return "with " + setting_name("bonds") + " none, without " + setting_name("arrows") + " and " + setting_name("trace");
+}
+
 // Refuses what the GPU cannot draw.
 void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings& settings) {
   const auto refuse = [engine](const std::string& what, const std::string& without) {
@@ -146,6 +239,7 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: " + setting_name("samples") + " 4");
   if (scene.plane && scene.plane->shadows_only)
     refuse("floors of shadows", "with a colour of " + setting_name("floor"));
+  if (!scene.sticks.empty()) refuse("bonds, arrows and tubes", without_sticks());
   if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
 }
@@ -167,6 +261,7 @@ std::string dark_insides(const Scene& scene, const RenderSettings& settings) {
 std::string why_empty(const Scene& scene, const RenderSettings& settings) {
   const SphereSet& spheres = scene.spheres;
   if (spheres.empty() || settings.view == View::tree || spheres.total_size() > kMostSeen) return "";
+  if (scene.sticks.own_count() > 0) return "";  // tubes and arrows are seen without their spheres
   const auto all = [](const std::vector<float>& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](float number) { return number == 0; });
   };
@@ -210,7 +305,16 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
     if (const Status status = move_spheres(input.scene.spheres, *request.fixed->motion); !status) fail(status.error());
   if (is_of_film && request.fixed->density && input.density) show_density(input, request.fixed->density);
   const CameraSelections selections = is_of_film ? CameraSelections() : CameraSelections(request, input.scene.spheres);
+  const Sticks sticks = choose_sticks(request, input.scene, whole);
+  const bool has_bonds = sticks.bonds != Bonds::none;
+  const Arrows arrows = choose_arrows(request, input.scene, whole);
+  const Traces traces = choose_traces(request, input.scene, whole);
+  if (has_bonds) done_or_fail_bonds(scale_balls(input.scene, sticks));
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
+  if (has_bonds) done_or_fail_bonds(find_bonds(input.scene, sticks, static_cast<int>(request.threads)));
+  if (has_bonds && input.scene.sticks.empty()) warn("no two atoms are near enough for a bond");
+  if (arrows.any()) draw_arrows(arrows, is_of_film, input.scene);
+  if (traces.any()) draw_traces(traces, input.scene);
   RenderSettings settings = apply_options(request, input, selections, whole);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",
@@ -218,6 +322,9 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (shows_reference_tree(settings.view) && input.scene.spheres.has_images())
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of the stored spheres",
                  "leave out " + setting_name("replicate"));
+  if (shows_reference_tree(settings.view) && !input.scene.sticks.empty())
+    fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of the spheres",
+                 "draw it " + without_sticks());
   if (input.scene.spheres.has_images() && has_clips(input.scene))
     fail_setting("clip", " does not cut the copies of " + setting_name("replicate"), "leave one of them out");
   if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);

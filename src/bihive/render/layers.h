@@ -22,9 +22,9 @@ namespace bihive {
 /// albedo.R, albedo.G, albedo.B: the colour of its material before any light, linear; 0 where there is nothing.
 /// depth, channel Z: the distance along the view from the camera, in world units, as Camera::focus; +inf for nothing.
 /// normal.X, normal.Y, normal.Z: its normal in the world, of length 1, turned against the ray; 0 for nothing.
-/// id: input_id() of the sphere; kIdOfPlane and kIdOfNothing.
-/// attribute.NAME: the sphere's number of that name (select/attribute_names.h); NaN where it is unknown, for the plane
-/// and for nothing.
+/// id: input_id() of the sphere; of a stick its number after all spheres of the input; kIdOfPlane and kIdOfNothing.
+/// attribute.NAME: the sphere's number of that name (select/attribute_names.h), on half a stick that of the sphere at
+/// its end; NaN where it is unknown, for the plane and for nothing.
 enum class LayerKind { radiance, albedo, depth, normal, id, attribute };
 
 struct Layer {

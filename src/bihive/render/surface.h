@@ -13,7 +13,7 @@ namespace bihive {
 class CutSet;
 
 struct Surface {
-  std::int64_t id;    ///< sphere or kPlane
+  std::int64_t id;    ///< sphere, half a stick or kPlane
   Vec3f origin;       ///< the hit point, rounded to binary32: where the next rays start
   Vec3d incoming;     ///< the ray's direction, length 1
   Vec3d normal;       ///< length 1, turned against the ray
@@ -23,6 +23,8 @@ struct Surface {
 
 /// `hit` must be a hit, not a miss. `cuts`: of the scene (scene/clips.h); null: all spheres are whole.
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit, const CutSet* cuts);
+/// The outward normal, of length 1, at a hit of half a stick.
+Vec3d stick_normal(const Scene& scene, const Ray& ray, const SceneHit& hit);
 /// The same for a scene whose cuts are not at hand: it makes them for each call if the scene has clips.
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit);
 

@@ -21,6 +21,8 @@ namespace bihive {
 
 class RemoteEngine;
 class RayEngine;
+class CutSet;
+class StickSet;
 struct Scene;
 
 /// automatic: the fastest engine, which is wide; wide: vectors on the wide tree (wide/queries.h); reference: scalar
@@ -60,9 +62,9 @@ class Tracer {
   static Result<Tracer> build(const SphereSet& spheres, Engine engine, const TreeParameters& parameters = {},
                               int threads = 0);
 
-  /// The same for a scene, whose clips (scene/clips.h) cut its spheres open. Without clips it is the tracer of the
-  /// scene's spheres. `first`: the number of spheres that are traced; rays may exit the others too; below 0: all. If
-  /// that is not all, clips must cut some sphere.
+  /// The same for a scene, whose clips (scene/clips.h) cut its spheres open, and whose sticks stand beside them.
+  /// Without either it is the tracer of the scene's spheres. Error: check_sticks(). `first`: the number of spheres that
+  /// are traced; rays may exit the others too; below 0: all. If that is not all, clips must cut some sphere.
   static Result<Tracer> build(const Scene& scene, Engine engine, const TreeParameters& parameters = {}, int threads = 0,
                               std::int64_t first = -1);
 
@@ -91,6 +93,8 @@ class Tracer {
   const SphereSet& spheres() const { return *spheres_; }
   /// Whether clips cut the spheres. Then there is no tree of all spheres.
   bool has_clips() const { return has_clips_; }
+  /// Whether there are sticks beside the spheres. Their ids follow those of the spheres (geometry/stick_set.h).
+  bool has_sticks() const { return has_sticks_; }
   /// Whether the spheres have images. Then a tree is that of the stored spheres alone.
   bool has_images() const { return has_images_; }
   const Tree* tree() const { return tree_; }                ///< null unless the engine is `reference`
@@ -99,6 +103,7 @@ class Tracer {
   double build_ms() const { return build_ms_; }             ///< 0 for a tree from elsewhere
 
  private:
+  static Result<Tracer> with_sticks(Tracer tracer, const StickSet& sticks, std::shared_ptr<const CutSet> cuts);
   Tracer(const SphereSet& spheres, Engine engine, std::shared_ptr<const RayEngine> rays);
 
   const SphereSet* spheres_;
@@ -107,7 +112,7 @@ class Tracer {
   const Tree* tree_;
   const WideTree* wide_tree_;
   std::shared_ptr<RemoteEngine> remote_;  // null: the spheres are here
-  bool has_clips_ = false, has_images_ = false;
+  bool has_clips_ = false, has_images_ = false, has_sticks_ = false;
   double build_ms_ = 0;
 };
 

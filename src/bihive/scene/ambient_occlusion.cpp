@@ -9,7 +9,8 @@
 namespace bihive {
 
 // A spiral from pole to pole: equal steps along the axis are equal areas, and each step turns by the golden angle. The
-// sets are interleaved: set i starts a fraction of a step lower and is rotated as the sample positions are.
+// sets are interleaved: set i starts a fraction of a step lower and is rotated as the sample positions are. Of two
+// directions, the second is opposite.
 DirectionSets::DirectionSets(int directions, int samples_per_pixel) {
   const double golden = (3 - std::sqrt(5.0)) / 2;  // of a whole turn
   const Rotation step = turn_by(golden);
@@ -26,6 +27,7 @@ DirectionSets::DirectionSets(int directions, int samples_per_pixel) {
       set.push_back(to_float(Vec3d{radius * turn.cosine, radius * turn.sine, z}));
       turn = after(turn, step);
     }
+    if (asked == 2) set[1] = -set[0];
   }
 }
 

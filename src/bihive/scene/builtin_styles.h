@@ -13,5 +13,7 @@ std::string_view style_text_glossy();
 std::string_view style_text_flat();
 std::string_view style_text_xray();
 std::string_view style_text_density();
+std::string_view style_text_ball_and_stick();
+std::string_view style_text_licorice();
 
 }  // namespace bihive

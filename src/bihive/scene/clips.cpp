@@ -125,9 +125,12 @@ bool has_clips(const Scene& scene) {
 
 std::shared_ptr<const CutSet> cut_set_of(const Scene& scene) {
   if (!has_clips(scene)) return nullptr;
-  auto cuts = std::make_shared<const CutSet>(scene.spheres, scene.clips, scene.spheres.attributes().clips);
+  auto cuts = std::make_shared<const CutSet>(scene.spheres, scene.clips, scene.spheres.attributes().clips,
+                                             scene.sticks.empty() ? nullptr : &scene.sticks);
   for (std::int64_t id = 0; id < scene.spheres.size(); ++id)
     if (cuts->remainder(id) != Remainder::whole) return cuts;
+  for (std::int64_t stick = 0; stick < scene.sticks.size(); ++stick)
+    if (cuts->remainder_of_stick(stick) != Remainder::whole) return cuts;
   return nullptr;
 }
 

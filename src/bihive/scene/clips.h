@@ -28,7 +28,7 @@ Status check_clip(const Clip& clip);
 /// Whether a clip acts on some sphere.
 bool has_clips(const Scene& scene);
 
-/// The cut spheres of the scene, whose set must outlive it; null if the clips neither cut nor remove any.
+/// The cut spheres and sticks of the scene, whose sets must outlive it; null if the clips neither cut nor remove any.
 std::shared_ptr<const CutSet> cut_set_of(const Scene& scene);
 
 /// Those of these stored ids whose spheres are not removed entirely.

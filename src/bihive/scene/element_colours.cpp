@@ -22,6 +22,7 @@ constexpr SymbolColour kCpkColours[] = {
     {"Ti", "#808090"}, {"Cr", "#808090"}, {"Mn", "#808090"}, {"Fe", "#ffa500"}, {"Ni", "#a52a2a"}, {"Cu", "#a52a2a"},
     {"Zn", "#a52a2a"}, {"Ag", "#808090"}, {"Ba", "#ffa500"}, {"Au", "#daa520"},
 };
+constexpr const char* kCpk = "cpk";
 constexpr std::string_view kUnknownCpk = "#ff1493";
 
 Vec3f linear_from_text(std::string_view colour) {
@@ -36,11 +37,18 @@ std::optional<ElementColours> element_colours_called(std::string_view name) {
     for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = element_colour(static_cast<int>(i), *scheme);
     return colours;
   }
-  if (name != "cpk") return std::nullopt;
+  if (name != kCpk) return std::nullopt;
   colours.fill(linear_from_text(kUnknownCpk));
   for (const SymbolColour& one : kCpkColours)
     colours[static_cast<std::size_t>(atomic_number(one.symbol))] = linear_from_text(one.colour);
   return colours;
+}
+
+std::vector<std::string> element_colour_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, scheme] : kElementSchemes) names.push_back(name);
+  names.emplace_back(kCpk);
+  return names;
 }
 
 Result<ElementColours> read_element_colours(std::string_view text, const std::string& file) {

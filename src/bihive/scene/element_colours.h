@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/scene/palette.h"
@@ -18,6 +19,9 @@ using ElementColours = std::array<std::optional<Vec3f>, kElementNumbers>;
 /// "cpk": the colours of RasMol [SayleMilnerWhite1995], after the models of Corey, Pauling and Koltun. "jmol" and
 /// "soft": those of palette.h. Nothing for any other name.
 std::optional<ElementColours> element_colours_called(std::string_view name);
+
+/// The names that element_colours_called() knows.
+std::vector<std::string> element_colour_names();
 
 /// Parses lines `C #rrggbb`: a symbol in upper or lower case, or X for an unknown element, and a colour or its name as
 /// it appears on the screen with the sRGB curve. Blank lines, and lines that begin with # are skipped. Errors have

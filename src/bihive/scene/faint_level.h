@@ -9,16 +9,17 @@ namespace bihive {
 /// Levels 0 to kFaintLevels - 1. Each level traces half as many rays as the previous one.
 constexpr int kFaintLevels = 6;
 
-/// No level uses fewer than this, unless the picture does. Where no direction is in front of a surface it counts as
-/// open: one time in 16 with four.
-constexpr int kFewestDirections = 4;
+/// No level uses fewer than this, unless the picture does. Two directions are opposite, so that one of them is in front
+/// of every surface.
+constexpr int kFewestDirections = 2;
 constexpr int kFewestLightPoints = 1;
 
-/// The level of a surface that contributes at most this share of its pixel's light: 0 above 1/2, 1 above 1/4, and so
-/// on.
+/// The level of a surface that contributes at most this share of its pixel's light: 0 around 1, 1 around 1/2, and so
+/// on, with the limits between at their geometric means. For a given number of rays the error of the sum is least where
+/// a layer's rays are proportional to its share.
 inline int faint_level(double share) {
   int level = 0;
-  for (double limit = 0.5; level < kFaintLevels - 1 && share <= limit; limit = limit / 2) ++level;
+  for (double limit = 0.70710678118654752; level < kFaintLevels - 1 && share <= limit; limit = limit / 2) ++level;
   return level;
 }
 

@@ -10,7 +10,7 @@
 namespace bihive {
 
 /// RemainingSpheres, without those outside their central_box() if `share` is below 1. If no sphere is inside of the box
-/// along all axes, all are framed.
+/// along all axes, all are framed. With a share of 1 also the balls at the ends of sticks that have ends of their own.
 class FramedSpheres {
  public:
   /// The scene must outlive it.

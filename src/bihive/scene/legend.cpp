@@ -186,6 +186,20 @@ LegendKey key_of_names(const Scene& scene) {
   return key;
 }
 
+// The map of arrows, unless it is that of spheres. Categories are named by the spheres alone.
+std::optional<LegendKey> key_of_arrows(const Scene& scene, const std::vector<LegendKey>& keys) {
+  const std::optional<ColourBy>& how = scene.arrows_coloured_by;
+  if (!how || !how->range) return std::nullopt;
+  LegendKey key;
+  key.title = how->title.empty() ? how->attribute : how->title;
+  key.scale = {how->map.value_or(ColourMap()), *how->range, how->logarithmic};
+  const bool is_said = std::any_of(keys.begin(), keys.end(), [&](const LegendKey& other) {
+    return other.title == key.title && other.scale && other.scale->map == key.scale->map &&
+           other.scale->range == key.scale->range && other.scale->logarithmic == key.scale->logarithmic;
+  });
+  return is_said ? std::nullopt : std::optional(std::move(key));
+}
+
 }  // namespace
 
 std::vector<LegendKey> legend_of(const Scene& scene) {
@@ -199,6 +213,7 @@ std::vector<LegendKey> legend_of(const Scene& scene) {
   std::vector<LegendKey> keys;
   for (const KeyCollector& collector : joined) keys.push_back(collector.key());
   if (LegendKey names = key_of_names(scene); !names.entries.empty()) keys.push_back(std::move(names));
+  if (std::optional<LegendKey> of_arrows = key_of_arrows(scene, keys)) keys.push_back(std::move(*of_arrows));
   return keys;
 }
 

@@ -71,7 +71,8 @@ void restyle(LoadedScene& loaded, const Style& style) {
 }
 
 bool is_built_in_scene(const std::string& name) {
-  return std::find(kBuiltInScenes.begin(), kBuiltInScenes.end(), name) != kBuiltInScenes.end();
+  return std::any_of(kBuiltInScenes.begin(), kBuiltInScenes.end(),
+                     [&name](const BuiltInScene& one) { return name == one.name; });
 }
 
 Status check_scenario_memory(const ScenarioParameters& parameters) {
@@ -84,7 +85,7 @@ Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParame
   if (name == "four-spheres") return generated(four_spheres_scene());
   if (!is_built_in_scene(name)) {
     std::string known;
-    for (const char* one : kBuiltInScenes) known += (known.empty() ? "" : ", ") + std::string(one);
+    for (const BuiltInScene& one : kBuiltInScenes) known += (known.empty() ? "" : ", ") + std::string(one.name);
     return Error{"there is no built-in scene \"" + name + "\"", "", 0, 0, "there are " + known};
   }
   if (Status status = check_scenario_memory(parameters); !status) return status.error();

@@ -13,13 +13,26 @@
 
 namespace bihive {
 
-constexpr std::array<const char*, 5> kBuiltInScenes{"demo", "scenario1", "scenario2", "scenario3", "four-spheres"};
+/// What the parameters of built_in_scene() change.
+enum class BuiltInKind { file, scenario, fixed };
+
+struct BuiltInScene {
+  const char* name;
+  const char* title;  ///< for lists
+  BuiltInKind kind;
+};
+
+constexpr std::array<BuiltInScene, 5> kBuiltInScenes{{{"demo", "HIV-1 protease", BuiltInKind::file},
+                                                      {"scenario1", "Scenario 1: grid", BuiltInKind::scenario},
+                                                      {"scenario2", "Scenario 2: clusters", BuiltInKind::scenario},
+                                                      {"scenario3", "Scenario 3: both", BuiltInKind::scenario},
+                                                      {"four-spheres", "Four spheres", BuiltInKind::fixed}}};
 bool is_built_in_scene(const std::string& name);
 
 /// Error: this number of spheres does not fit this machine's memory.
 Status check_scenario_memory(const ScenarioParameters& parameters);
 
-/// One of kBuiltInScenes. The parameters are for the scenarios, the options for the demo; other scenes ignore them.
+/// One of kBuiltInScenes. The parameters are for the scenarios, the options for the file; other scenes ignore them.
 /// Error: an unknown name (the message lists all names), parameters out of range, or more spheres than memory holds.
 /// `style`: of the demo; null: plain.
 Result<LoadedScene> built_in_scene(const std::string& name, const ScenarioParameters& parameters = {},

@@ -20,16 +20,6 @@ Error unexpected(const std::string& expected, const std::string& found) {
   return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
 }
 
-std::vector<std::string> colour_names() {
-  std::vector<std::string> names;
-  for (std::string_view rest = kColourNames; !rest.empty();) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    names.emplace_back(rest.substr(0, comma));
-    rest.remove_prefix(std::min(comma + 2, rest.size()));
-  }
-  return names;
-}
-
 std::optional<double> number_in(std::string_view text, double min, double max) {
   const std::optional<double> number = parse_double(text);
   return number && *number >= min && *number <= max ? number : std::nullopt;
@@ -102,37 +92,91 @@ Result<LookAction> clip_action(const std::string& value) {
   return LookAction(AddClip{*clip});
 }
 
-using FromText = Result<LookAction> (*)(const std::string& value);
-
-const Names<FromText>& actions() {
-  static const Names<FromText> all{
-      {"hide", [](const std::string&) -> Result<LookAction> { return LookAction(SetShown{false}); }},
-      {"show", [](const std::string&) -> Result<LookAction> { return LookAction(SetShown{true}); }},
-      {"colour", colour_action},
-      {"colour-by", colour_by_action},
-      {"opacity", opacity_action},
-      {"material", material_action},
-      {"radius-scale", radius_scale_action},
-      {"outline", outline_action},
-      {"crease", crease_action},
-      {"legend-name", legend_name_action},
-      {"clip", clip_action}};
-  return all;
+Result<LookAction> hide_action(const std::string&) {
+  return LookAction(SetShown{false});
 }
 
+Result<LookAction> show_action(const std::string&) {
+  return LookAction(SetShown{true});
+}
+
+constexpr LookActionText kActions[] = {
+    {.name = "hide", .from_text = hide_action},
+    {.name = "show", .from_text = show_action},
+    {.name = "colour",
+     .value = "a colour",
+     .example = "orange or #ff8800",
+     .names = ValueNames::colours,
+     .from_text = colour_action},
+    {.name = "colour-by",
+     .value = "an attribute",
+     .example = "chain or b_factor:magma",
+     .names = ValueNames::attributes,
+     .from_text = colour_by_action},
+    {.name = "opacity", .value = "an opacity", .example = "0 to 1", .is_number = true, .from_text = opacity_action},
+    {.name = "material",
+     .value = "a material",
+     .example = "metal",
+     .names = ValueNames::materials,
+     .from_text = material_action},
+    {.name = "radius-scale",
+     .label = "radius ×",
+     .value = "a factor",
+     .example = "0.5",
+     .is_number = true,
+     .from_text = radius_scale_action},
+    {.name = "outline",
+     .label = "outline px",
+     .value = "a width",
+     .example = "0 to 16",
+     .is_number = true,
+     .from_text = outline_action},
+    {.name = "crease",
+     .value = "an attribute",
+     .example = "chain",
+     .names = ValueNames::attributes,
+     .from_text = crease_action},
+    {.name = "legend-name",
+     .label = "name in legend",
+     .value = "a name",
+     .example = "ligand",
+     .from_text = legend_name_action},
+    {.name = "clip", .value = "a shape", .example = "plane:0,0,1,0", .from_text = clip_action},
+};
+
 }  // namespace
+
+std::span<const LookActionText> look_actions() {
+  return kActions;
+}
+
+const LookActionText* look_action_named(std::string_view name) {
+  for (const LookActionText& action : kActions)
+    if (action.name == name) return &action;
+  return nullptr;
+}
 
 const std::vector<std::string>& look_action_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const auto& action : actions()) all.push_back(action.first);
+    for (const LookActionText& action : kActions) all.emplace_back(action.name);
     return all;
   }();
   return names;
 }
 
+std::vector<std::string> colour_names() {
+  std::vector<std::string> names;
+  for (std::string_view rest = kColourNames; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    names.emplace_back(rest.substr(0, comma));
+    rest.remove_prefix(std::min(comma + 2, rest.size()));
+  }
+  return names;
+}
+
 Result<LookAction> look_action_from_text(std::string_view name, const std::string& value) {
-  if (const FromText* from_text = value_named(actions(), name)) return (*from_text)(value);
+  if (const LookActionText* action = look_action_named(name)) return action->from_text(value);
   std::string known;
   for (const std::string& one : look_action_names()) known += (known.empty() ? "" : ", ") + one;
   return Error{"there is no action \"" + std::string(name) + "\"", "", 0, 0, "there are " + known};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bihive/scene/clips.h"
 #include "bihive/scene/image_colours.h"
 
 namespace bihive {
@@ -10,6 +11,15 @@ std::vector<PointLight> local_lights(const Scene& scene) {
   std::vector<PointLight> lights = scene.lights;
   for (PointLight& light : lights) light.position = scene.spheres.to_local(light.position);
   return lights;
+}
+
+Status check_sticks(const Scene& scene) {
+  if (scene.sticks.empty()) return Done{};
+  const auto refused = [](const std::string& what) {
+    return Error{"sticks cannot be drawn beside " + what, "", 0, 0, "leave one of them out"};
+  };
+  if (lets_light_through(scene)) return refused("transparent spheres");
+  return Done{};
 }
 
 bool has_soft_light(const Scene& scene) {

@@ -9,6 +9,7 @@
 #include "bihive/geometry/clip.h"
 #include "bihive/geometry/plane.h"
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/geometry/stick_set.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/material.h"
@@ -45,6 +46,9 @@ struct ScenePlane {
 
 struct Scene {
   SphereSet spheres;
+  /// Between the spheres, in the appearance of those at their ends. They are opaque: a scene with sticks has no
+  /// transparent spheres (check_sticks()).
+  StickSet sticks;
   std::vector<Material> materials{matte_material()};  ///< at least one
   std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
   std::vector<std::int64_t> id_in_input;              ///< of each sphere, if some are hidden; empty: its position
@@ -56,6 +60,8 @@ struct Scene {
   /// the first of `coloured_by`, if there is one.
   std::vector<std::int32_t> coloured_by_of_sphere;
   std::vector<std::string> legend_names;  ///< of coloured selections
+  /// The meaning of the colours of arrows (scene/arrows.h), as returned by colour_by(); unset: they have none.
+  std::optional<ColourBy> arrows_coloured_by;
   /// What colour_by() gives elements: linear RGB by atomic number, 0: unknown. Empty: element_colour() (palette.h).
   std::vector<Vec3f> element_colours;
   std::string length_unit;  ///< of the input's format ("Å"); empty: unknown
@@ -77,6 +83,16 @@ inline std::int64_t input_id(const Scene& scene, std::int64_t id) {
   const std::int64_t of_stored = scene.id_in_input[static_cast<std::size_t>(scene.spheres.stored_id(id))];
   return of_stored + id / scene.spheres.size() * scene.size_of_input;
 }
+
+/// The sphere whose appearance a surface has, by the id of a hit: the sphere itself, or the one at the end of half a
+/// stick. Negative ids stay what they are.
+inline std::int64_t shown_sphere(const Scene& scene, std::int64_t id) {
+  const std::int64_t half = id - scene.spheres.total_size();
+  return half < 0 ? id : scene.sticks.sphere_at(scene.spheres, half);
+}
+
+/// An Error where the scene has sticks that pictures cannot show as they should: beside transparent spheres.
+Status check_sticks(const Scene& scene);
 
 /// As rays see them: relative to the origin of the spheres.
 inline Camera local_camera(const Scene& scene) {

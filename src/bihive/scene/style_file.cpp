@@ -21,9 +21,10 @@ using nlohmann::json;
 
 const Names<std::string_view (*)()>& builtin_styles() {
   static const Names<std::string_view (*)()> styles{
-      {"default", style_text_default}, {"plain", style_text_plain},    {"illustrative", style_text_illustrative},
-      {"studio", style_text_studio},   {"glossy", style_text_glossy},  {"flat", style_text_flat},
-      {"xray", style_text_xray},       {"density", style_text_density}};
+      {"default", style_text_default},  {"plain", style_text_plain},     {"illustrative", style_text_illustrative},
+      {"studio", style_text_studio},    {"glossy", style_text_glossy},   {"flat", style_text_flat},
+      {"xray", style_text_xray},        {"density", style_text_density}, {"ball-and-stick", style_text_ball_and_stick},
+      {"licorice", style_text_licorice}};
   return styles;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bihive/base/near_name.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/select/number_term.h"
 
@@ -154,6 +155,7 @@ std::string list_of_names(const std::vector<std::string>& names) {
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
   const std::string nearest = near_name(name, candidates);
   const std::string all = "there are " + list_of_names(candidates);
+  if (name == "exposed_area") return setting_name("exposed_area") + " measures it when a file is read; " + all;
   return nearest.empty() ? all : "did you mean " + quote(nearest) + "? " + all;
 }
 

@@ -6,10 +6,13 @@
 #include "bihive/image/tone.h"
 #include "bihive/image/transfer.h"
 #include "bihive/settings/ambient_occlusion.h"
+#include "bihive/settings/arrows.h"
 #include "bihive/settings/labels.h"
 #include "bihive/settings/opacity_rule.h"
 #include "bihive/settings/picture_effects.h"
 #include "bihive/settings/stereo.h"
+#include "bihive/settings/sticks.h"
+#include "bihive/settings/traces.h"
 
 namespace bihive {
 
@@ -42,6 +45,9 @@ struct PictureSettings {
   int light_points = 8;  ///< shadow rays per light with a radius and sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
+  Sticks sticks;                        ///< for find_bonds() (scene/bonds.h), before a picture is drawn
+  Arrows arrows;                        ///< for add_arrows() (scene/arrows.h), after that
+  Traces traces;                        ///< for add_traces() (scene/traces.h), last
   std::optional<CellLines> cell_lines;  ///< without effect if the spheres have no cell
   LineUnit line_unit = LineUnit::px;    ///< of all widths of lines
   /// The picture has opacity instead of a background: samples that hit nothing add no light to their pixel. Reflected

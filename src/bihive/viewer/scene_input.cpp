@@ -4,10 +4,13 @@
 
 #include "bihive/image/colour_text.h"
 #include "bihive/io/packed.h"
+#include "bihive/scene/arrows.h"
+#include "bihive/scene/bonds.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/floor.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/look_text.h"
+#include "bihive/scene/traces.h"
 #include "bihive/select/attribute_names.h"
 
 namespace bihive {
@@ -46,8 +49,9 @@ Status set_background(Scene& scene, const std::string& background) {
 }
 
 // `kept`: the plane that it had in another frame.
-Status lay_floor(LoadedScene& loaded, const std::string& text, const std::optional<Plane>& kept) {
+Status lay_floor(LoadedScene& loaded, const ViewerLook& look, const std::optional<Plane>& kept) {
   Scene& scene = loaded.scene;
+  const std::string& text = look.floor;
   if (scene.plane) return look_error("floor: the scene has a plane of its own", "leave the floor out");
   std::optional<Vec3d> colour;
   if (text != kFloorOfShadows) {
@@ -56,8 +60,8 @@ Status lay_floor(LoadedScene& loaded, const std::string& text, const std::option
     if (!given) return given.error();
     colour = *given;
   }
-  const Vec3d up = loaded.has_camera ? normalized(scene.camera.up) : Vec3d{0, 1, 0};
-  scene.plane = floor_in(kept ? *kept : plane_below(scene, up), colour, scene);
+  const Vec3d up = look.floor_up ? *look.floor_up : loaded.has_camera ? scene.camera.up : Vec3d{0, 1, 0};
+  scene.plane = floor_in(kept ? *kept : plane_below(scene, normalized(up)), colour, scene);
   return Done{};
 }
 
@@ -254,11 +258,21 @@ Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const C
   if (Status status = light_up(looked.loaded, look.lights); !status) return status.error();
   if (!look.element_colours.empty())
     if (Status status = recolour(scene, look.element_colours); !status) return status.error();
+  const Sticks sticks = scene.picture.sticks;
+  if (sticks.bonds != Bonds::none)
+    if (Status status = scale_balls(scene, sticks); !status)
+      return look_error(status.error().message, "choose a style without bonds");
   Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row, kept.ranges);
   if (!counts) return counts.error();
+  if (sticks.bonds != Bonds::none)
+    if (Status status = find_bonds(scene, sticks); !status) return status.error();
+  if (scene.picture.arrows.any())
+    if (const Result<AddedArrows> added = add_arrows(scene, scene.picture.arrows); !added) return added.error();
+  if (scene.picture.traces.any())
+    if (const Result<AddedTraces> added = add_traces(scene, scene.picture.traces); !added) return added.error();
   looked.counts = std::move(*counts);
   if (!look.floor.empty())
-    if (Status status = lay_floor(looked.loaded, look.floor, kept.floor); !status) return status.error();
+    if (Status status = lay_floor(looked.loaded, look, kept.floor); !status) return status.error();
   return looked;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/result.h"
@@ -36,6 +37,9 @@ class SceneInput {
   static SceneInput made(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
 
   const SceneFacts& facts() const { return facts_; }
+  void add_warning(std::string warning) { facts_.warnings.push_back(std::move(warning)); }
+  /// As read: those that a look hides too.
+  const SphereSet& spheres() const { return loaded_.scene.spheres; }
 
   /// A scene, and the number of spheres that each row of the look selects.
   struct Looked {

@@ -5,7 +5,7 @@
 
 namespace bihive {
 
-// The wide tree of whole spheres.
+// The wide tree of whole spheres alone.
 Result<const BuiltWideTree*> SceneTrees::built() {
   if (!built_) {
     if (Status status = check_tree_memory(scene_.spheres, Engine::wide, parameters_); !status) return status.error();
@@ -18,7 +18,7 @@ Result<const BuiltWideTree*> SceneTrees::built() {
 
 Result<const Tracer*> SceneTrees::wide() {
   if (wide_) return &*wide_;
-  if (has_clips(scene_) || scene_.spheres.has_images()) {
+  if (has_clips(scene_) || scene_.spheres.has_images() || !scene_.sticks.empty()) {
     Result<Tracer> tracer = Tracer::build(scene_, Engine::wide, parameters_);
     if (!tracer) return tracer.error();
     wide_ = std::move(*tracer);

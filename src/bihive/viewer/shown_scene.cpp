@@ -5,6 +5,7 @@
 #include "bihive/render/frame_picture.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
+#include "bihive/scene/framed_spheres.h"
 #include "bihive/scene/framing_cell.h"
 #include "bihive/viewer/whole_in_view.h"
 
@@ -39,15 +40,18 @@ Camera ShownScene::framed(ViewFrom side, const Camera& like, const ViewerSetting
 
 Camera ShownScene::far_enough(const Camera& camera, bool cell, PictureSizePx size) const {
   const std::vector<Vec3d> corners = cell ? cell_corners(scene.spheres) : std::vector<Vec3d>();
-  return with_all_in_view(RemainingSpheres(scene).set(), corners, camera, size);
+  return with_all_in_view(FramedSpheres(scene, 1).set(), corners, camera, size);
 }
 
 bool ShownScene::same_spheres(const ShownScene& other) const {
   const SphereSet &a = scene.spheres, &b = other.scene.spheres;
   return a.scale_exponent() == b.scale_exponent() && a.origin() == b.origin() && a.x() == b.x() && a.y() == b.y() &&
          a.z() == b.z() && a.r() == b.r() && a.images().counts == b.images().counts &&
-         a.images().vectors == b.images().vectors && scene.clips == other.scene.clips &&
-         a.attributes().clips == b.attributes().clips;
+         a.images().vectors == b.images().vectors && scene.sticks == other.scene.sticks && same_clips(other);
+}
+
+bool ShownScene::same_clips(const ShownScene& other) const {
+  return scene.clips == other.scene.clips && scene.spheres.attributes().clips == other.scene.spheres.attributes().clips;
 }
 
 void ShownScene::take_look_of(ShownScene&& other) {

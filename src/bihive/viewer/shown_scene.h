@@ -54,6 +54,7 @@ struct ShownScene {
   /// Whether the other scene has the same spheres and clips, whatever the spheres' other attributes: then these trees
   /// are right for both.
   bool same_spheres(const ShownScene& other) const;
+  bool same_clips(const ShownScene& other) const;
   /// Replaces the scene by another with the same spheres, and keeps the trees.
   void take_look_of(ShownScene&& other);
   /// Uses the camera of these settings from now on. The lights of a scene without its own turn with the camera.

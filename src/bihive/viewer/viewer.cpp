@@ -9,6 +9,7 @@
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
+#include "bihive/scene/wide_angle.h"
 #include "bihive/viewer/gpu_pictures.h"
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/picture_steps.h"
@@ -37,6 +38,13 @@ class Viewer::Implementation {
     ViewerLook look;
     if (input->facts().is_file_of_spheres) look.style = look_.style;
     Result<SceneInput::Looked> looked = input->looked_at(look, {});
+    if (!looked && !look.style.empty()) {
+      // The style of the scene before may not suit these spheres.
+      const std::string why = looked.error().message;
+      looked = input->looked_at({}, {});
+      if (looked) input->add_warning("not in the style " + look.style + ": " + why);
+      look.style.clear();
+    }
     if (!looked) return looked.error();
     auto next = std::make_unique<ShownScene>(std::move(looked->loaded));
 
@@ -45,7 +53,8 @@ class Viewer::Implementation {
     settings.replicate.reset();
     settings.picture = {next->scene.picture, {}};
     const std::optional<ViewFrom> side = next->has_camera ? std::nullopt : std::optional(ViewFrom::front);
-    settings.camera = side ? next->framed(*side, next->own_camera, settings, size_) : next->own_camera;
+    settings.camera = next->own_camera;
+    if (side) settings.camera = framed(*next, *side, settings, /*angle_is_users=*/false);
     settings.focus_on.clear();
     put_below(*next, settings);
     if (Status status = check_settings(settings); !status) return status.error();
@@ -61,7 +70,9 @@ class Viewer::Implementation {
     settings_ = settings;
     framed_from_ = side;
     turned_from_.reset();
-    chosen_fov_deg_ = settings.camera.fov_deg;
+    is_seen_ = false;
+    chosen_fov_deg_ = shown_->own_camera.fov_deg;
+    angle_is_users_ = false;
     steps_.forget_image();
     if (gpu_) gpu_->forget();
     steps_.start_anew();
@@ -76,6 +87,7 @@ class Viewer::Implementation {
     static const Scene kNone;
     return shown_ ? shown_->scene : kNone;
   }
+  const SphereSet& input_spheres() const { return input_ ? input_->spheres() : scene().spheres; }
 
   // --- The look -----------------------------------------------------------------------------------------------
 
@@ -89,7 +101,16 @@ class Viewer::Implementation {
     if (failed_row != nullptr) *failed_row = look.rows.size();
     ViewerSettings settings = settings_;
     auto next = std::make_unique<ShownScene>(std::move(looked->loaded));
-    if (Status status = show(std::move(next), settings, framed_from_.has_value()); !status) return status.error();
+    // Cutting does not move the camera, so that what remains stays in place.
+    const bool is_cut = is_seen_ && !shown_->same_clips(*next);
+    const bool keeps_side = framed_from_ && !is_cut;
+    if (keeps_side) settings.camera.fov_deg = chosen_fov_deg_;
+    if (Status status = show(std::move(next), settings, keeps_side, angle_is_users_); !status) return status.error();
+    if (is_cut && framed_from_) {
+      turned_from_ = settings.camera;
+      framed_from_.reset();
+    }
+    if (is_cut && turned_from_) settings.camera = far_enough(settings.camera, size_);
     look_ = look;
     settings_ = settings;
     steps_.start_anew();
@@ -159,6 +180,7 @@ class Viewer::Implementation {
     const bool chooses_angle = settings.camera.projection == settings_.camera.projection &&
                                settings.camera.fov_deg != settings_.camera.fov_deg;
     const double fov_deg = chooses_angle ? settings.camera.fov_deg : chosen_fov_deg_;
+    const bool angle_is_users = chooses_angle || angle_is_users_;
     if (keeps_side) settings.camera.fov_deg = fov_deg;
     if (!shown_) {
       if (settings.engine == ViewerEngine::gpu)
@@ -171,9 +193,10 @@ class Viewer::Implementation {
         if (!looked) return looked.error();
         next = std::make_unique<ShownScene>(std::move(looked->loaded));
       }
-      if (Status status = show(std::move(next), settings, keeps_side); !status) return status;
+      if (Status status = show(std::move(next), settings, keeps_side, angle_is_users); !status) return status;
     }
     chosen_fov_deg_ = fov_deg;
+    angle_is_users_ = angle_is_users;
     if (!keeps_side) framed_from_.reset();
     if (!(settings.camera == settings_.camera)) turned_from_.reset();
     settings_ = settings;
@@ -188,7 +211,7 @@ class Viewer::Implementation {
     if (framed_from_)
       look_from(*framed_from_);
     else if (turned_from_)
-      settings_.camera = shown_->far_enough(settings_.camera, settings_.picture.result().cell_lines.has_value(), size_);
+      settings_.camera = far_enough(settings_.camera, size_);
     steps_.start_anew();
   }
 
@@ -203,10 +226,14 @@ class Viewer::Implementation {
       const Vec3d back = normalized(camera.eye - camera.look_at);
       camera.eye = camera.look_at + length(first->eye - first->look_at) * back;
       camera.shorter_side = first->shorter_side;
-      camera = shown_->far_enough(camera, settings_.picture.result().cell_lines.has_value(), size_);
+      camera = far_enough(camera, size_);
     }
     move_to(camera);
     turned_from_ = first;
+  }
+  Camera far_enough(const Camera& camera, PictureSizePx size) const {
+    if (!shown_) return camera;
+    return shown_->far_enough(camera, settings_.picture.result().cell_lines.has_value(), size);
   }
   void pan(double dx_px, double dy_px) { move_to(panned(settings_.camera, dx_px, dy_px, size_)); }
 
@@ -220,9 +247,8 @@ class Viewer::Implementation {
     if (!shown_) return;
     framed_from_ = side;
     turned_from_.reset();
-    Camera like = settings_.camera;
-    like.fov_deg = chosen_fov_deg_;
-    settings_.camera = shown_->framed(side, like, settings_, size_);
+    settings_.camera.fov_deg = chosen_fov_deg_;
+    settings_.camera = framed(*shown_, side, settings_, angle_is_users_);
     steps_.moved();
   }
 
@@ -237,12 +263,14 @@ class Viewer::Implementation {
     camera.focus = now.focus;
     move_to(camera);
     chosen_fov_deg_ = shown_->own_camera.fov_deg;
+    angle_is_users_ = false;
   }
 
   // --- Pictures -----------------------------------------------------------------------------------------------
 
   Result<FrameReport> frame(double budget_ms) {
     drop_picture();
+    is_seen_ = true;
     if (shown_) return steps_.frame({*shown_, settings_, size_, gpu_.get()}, budget_ms);
     FrameReport nothing;
     nothing.settled = true;
@@ -317,7 +345,9 @@ class Viewer::Implementation {
     const Hit hit = (*tracer)->closest_hit(ray);
     if (!hit.found() || hit.sphere_id < 0) return std::optional<Picked>();
     const Vec3d local = to_double(ray.origin) + hit.t * to_double(ray.direction);
-    return std::optional(Picked{hit.sphere_id, spheres.in_world(local), length(local - camera.eye)});
+    // On a stick the sphere at its nearer end.
+    const std::int64_t sphere = shown_sphere(shown_->scene, hit.sphere_id);
+    return std::optional(Picked{sphere, spheres.in_world(local), length(local - camera.eye)});
   }
 
   std::string statistics_json() {
@@ -376,11 +406,11 @@ class Viewer::Implementation {
   // Prepares everything for these settings and, if there is one, for the next look of the scene; then shows it.
   // `settings` gets the look's defaults, and with `keeps_side` the camera that shows the whole set. After an Error
   // nothing has changed.
-  Status show(std::unique_ptr<ShownScene> next, ViewerSettings& settings, bool keeps_side) {
+  Status show(std::unique_ptr<ShownScene> next, ViewerSettings& settings, bool keeps_side, bool angle_is_users) {
     const ShownScene& scene = next ? *next : *shown_;
     const bool same_spheres = !next || shown_->same_spheres(*next);
     put_below(scene, settings);
-    if (keeps_side) settings.camera = scene.framed(*framed_from_, settings.camera, settings, size_);
+    if (keeps_side) settings.camera = framed(scene, *framed_from_, settings, angle_is_users);
 
     // The trees refer to the spheres that stay.
     std::unique_ptr<SceneTrees> other_trees;
@@ -409,6 +439,10 @@ class Viewer::Implementation {
       return bad_setting("this view shows the tree of whole spheres", "remove the clips");
     if (of_tree && shown.scene.spheres.has_images())
       return bad_setting("this view shows the tree of the stored spheres", "draw it without copies");
+    if (of_tree && !shown.scene.sticks.empty())
+      return bad_setting("this view shows the tree of the spheres", "choose a style without bonds");
+    if (settings.engine == ViewerEngine::gpu && !shown.scene.sticks.empty())
+      return bad_setting("the graphics processor draws no bonds", "draw on the CPU, or in a style without bonds");
     const Result<const Tracer*> tracer = trees.needed_by(settings);
     if (!tracer) return tracer.error();
     if (settings.engine != ViewerEngine::gpu || !upload) return Done{};
@@ -434,6 +468,14 @@ class Viewer::Implementation {
     steps_.moved();
   }
 
+  // As the program places it: with the angle of these settings, which is less in a wide picture unless the user chose
+  // it.
+  Camera framed(const ShownScene& scene, ViewFrom side, const ViewerSettings& settings, bool angle_is_users) const {
+    Camera like = settings.camera;
+    if (!angle_is_users) like.fov_deg = angle_for_picture(like.fov_deg, size_.width, size_.height);
+    return scene.framed(side, like, settings, size_);
+  }
+
   // The point under (x, y), or a point as far away as look_at.
   Vec3d seen_at(double x_px, double y_px) const {
     const Camera& camera = settings_.camera;
@@ -453,8 +495,10 @@ class Viewer::Implementation {
   ViewerSettings settings_;
   PictureSizePx size_{1280, 720};
   std::optional<ViewFrom> framed_from_;       // the camera shows the whole set from there, as look_from() placed it
-  std::optional<Camera> turned_from_;         // it has only turned since: the camera before
+  std::optional<Camera> turned_from_;         // only turns and cuts since then: the camera before
+  bool is_seen_ = false;                      // a frame of this scene was asked for
   double chosen_fov_deg_ = Camera{}.fov_deg;  // by the scene or the user, not by a change of the projection
+  bool angle_is_users_ = false;               // not the scene's
   std::shared_ptr<const FrameMaker> maker_;
   std::uint64_t maker_version_ = 0;
   std::uint64_t version_ = 0;  // of all that goes into a frame: look, copies, trees
@@ -484,6 +528,9 @@ const SceneFacts& Viewer::facts() const {
 }
 const Scene& Viewer::scene() const {
   return implementation_->scene();
+}
+const SphereSet& Viewer::input_spheres() const {
+  return implementation_->input_spheres();
 }
 
 const ViewerLook& Viewer::look() const {
@@ -524,6 +571,9 @@ void Viewer::resize(int width_px, int height_px) {
 }
 void Viewer::orbit(double dx_px, double dy_px) {
   implementation_->orbit(dx_px, dy_px);
+}
+Camera Viewer::far_enough(const Camera& camera, int width_px, int height_px) const {
+  return implementation_->far_enough(camera, {width_px, height_px});
 }
 void Viewer::pan(double dx_px, double dy_px) {
   implementation_->pan(dx_px, dy_px);

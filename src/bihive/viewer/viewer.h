@@ -55,12 +55,15 @@ class Viewer {
   Result<SceneFacts> load(Scene scene, SceneFacts facts, bool has_camera, bool has_lights);
   const SceneFacts& facts() const;  ///< empty before the first scene
   const Scene& scene() const;       ///< without spheres before the first
+  /// The spheres of the shown frame as they were read: those that the look hides too.
+  const SphereSet& input_spheres() const;
 
   // The look. The picture is the one that `bihive render` draws with the same choices.
 
   const ViewerLook& look() const;
   /// Another style sets its own samples, recursion, shadows and effects, except those that the user has changed. A
-  /// camera that shows the whole set is placed again. Returns how many spheres each row selects. Errors: an unknown
+  /// camera that shows the whole set is placed again, unless clips are what changes after a frame was drawn: they leave
+  /// it, so that what remains stays in its place. Returns how many spheres each row selects. Errors: an unknown
   /// style, colour or action, a style for a scene that has a look of its own, a selection's (with its column), an
   /// attribute that the scene lacks, or that every sphere is hidden; the previous look stays. `failed_row` (if given)
   /// is then the faulty row; rows.size() if none is.
@@ -99,6 +102,9 @@ class Viewer {
   /// camera that shows the whole set still does so while the set turns.
   void orbit(double dx_px, double dy_px);
   void pan(double dx_px, double dy_px);
+  /// The same camera, as much farther away as a picture of this size needs to show the whole set; of parallel rays,
+  /// with a longer shorter side. It never comes nearer. Costs a pass over the spheres.
+  Camera far_enough(const Camera& camera, int width_px, int height_px) const;
   /// A factor above 1 comes closer. The point under (x, y) in pixels stays fixed. Does nothing if the factor is not
   /// finite or not above 0.
   void zoom(double factor, double x_px, double y_px);

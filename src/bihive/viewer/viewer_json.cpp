@@ -112,6 +112,18 @@ class Members {
     }
   }
 
+  // A direction, or null.
+  void take(const char* key, std::optional<Vec3d>& value) {
+    const json* member = find(key);
+    if (member == nullptr) return;
+    if (member->is_null()) return value.reset();
+    Vec3d direction{0, 0, 0};
+    take(key, direction);
+    if (!error_.message.empty()) return;
+    if (direction == Vec3d{0, 0, 0}) return fail(key, "a direction, or null", *member);
+    value = direction;
+  }
+
   template <class T>
   void take(const char* key, T& value, const Names<T>& names) {
     const json* member = find(key);
@@ -292,6 +304,7 @@ std::string viewer_look_to_json(const ViewerLook& look) {
   document["nan_colour"] = look.nan_colour;
   document["crease"] = look.crease;
   document["floor"] = look.floor;
+  document["floor_up"] = look.floor_up ? vector_json(*look.floor_up) : ordered_json();
   document["rows"] = ordered_json::array();
   for (const LookRow& row : look.rows)
     document["rows"].push_back({{"select", row.select}, {"action", row.action}, {"value", row.value}});
@@ -312,6 +325,7 @@ Result<ViewerLook> viewer_look_from_json(std::string_view text, const ViewerLook
   members.take("nan_colour", look.nan_colour);
   members.take("crease", look.crease);
   members.take("floor", look.floor);
+  members.take("floor_up", look.floor_up);
   take_rows(members, look.rows, error);
   members.refuse_others();
   if (!error.message.empty()) return error;

@@ -2,9 +2,11 @@
 // --colour-by, --nan-colour, --crease, --floor and --select with the options after it of `bihive render`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bihive/math/vec3.h"
 #include "bihive/scene/look_text.h"
 
 namespace bihive {
@@ -20,11 +22,12 @@ struct ViewerLook {
   std::string nan_colour{};  ///< a colour, for colour_by and for all rows; empty: grey
   std::string crease{};      ///< an attribute: lines between spheres that differ in it; empty: the style's
   std::string floor{};       ///< a colour, or kFloorOfShadows (scene/floor.h); empty: none but the scene's own
+  std::optional<Vec3d> floor_up{};  ///< normal of the floor, of any length but 0; null: up of the file's camera, or y
 
   friend bool operator==(const ViewerLook& a, const ViewerLook& b) {
     return a.style == b.style && a.element_colours == b.element_colours && a.background == b.background &&
            a.lights == b.lights && a.colour_by == b.colour_by && a.nan_colour == b.nan_colour && a.crease == b.crease &&
-           a.floor == b.floor && a.rows == b.rows;
+           a.floor == b.floor && a.floor_up == b.floor_up && a.rows == b.rows;
   }
   friend bool operator!=(const ViewerLook& a, const ViewerLook& b) { return !(a == b); }
 };

@@ -18,12 +18,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "bihive/base/result.h"
 #include "bihive/geometry/hit.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/wide_tree.h"
 
 namespace bihive {
+
+class PeriodicImages;
 
 /// How coherent neighbouring rays are, as far as the caller knows. It changes the speed, never an answer. blocks: each
 /// 64 neighbours, counted from the first, are close in origin and direction, as 8 x 8 pixels of a camera or their
@@ -41,9 +44,25 @@ void closest_hits(const WideTree& tree, const RaySpan& rays, RayOrder order, con
 /// per ray, of mirrored hits 40 to 300 ns.
 void occluded(const WideTree& tree, const RaySpan& rays, RayOrder order, std::uint8_t* hidden);
 
-/// Every hit of each ray, with the t of geometry/sphere.h: by ray, then by t, then by id. Overwrites `hits`. Made for
-/// blocks of neighbouring rays (RayOrder::blocks); other rays cost some microseconds each.
+/// Every hit of each ray, with the t of geometry/sphere.h: by ray, then by t, then by id. Overwrites `hits`. The order
+/// of the rays is recognised.
 void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits);
+
+/// How the queries below share their rays.
+struct RayOptions {
+  RayOrder order = RayOrder::any;
+  int threads = 0;                         ///< 0: all that the machine has, for 4096 rays or more each
+  const PeriodicImages* images = nullptr;  ///< of the tree's set: rays meet them too. Null: the spheres alone
+  /// With images: for each ray a sphere that does not count, as of PeriodicImages. Null: all count.
+  const std::int64_t* exclude = nullptr;
+};
+
+/// The same queries for any number of rays: these make the threads themselves, and may be watched and cancelled
+/// (base/watch.h). A cancelled call ends after some hundredths of a second, and its answers are then undefined. Error:
+/// also not enough memory, and with images a ray without an end.
+Status closest_hits(const WideTree& tree, const RaySpan& rays, const HitSpan& hits, const RayOptions& options = {});
+Status occluded(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden, const RayOptions& options = {});
+Status all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits, const RayOptions& options);
 
 /// A single ray, for code that has only one at a time. Costs, AVX2: 0.3 us (random rays, 4,096 spheres) to 1 us (a
 /// million).

@@ -2,12 +2,12 @@
 #include "common"
 
 const int kFaintLevels = 6;
-const int kFewestDirections = 4;
+const int kFewestDirections = 2;
 const int kFewestLightPoints = 1;
 
 int faint_level(float share) {
   int level = 0;
-  for (float limit = 0.5; level < kFaintLevels - 1 && share <= limit; limit *= 0.5) ++level;
+  for (float limit = 0.70710678; level < kFaintLevels - 1 && share <= limit; limit *= 0.5) ++level;
   return level;
 }
 

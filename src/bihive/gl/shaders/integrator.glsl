@@ -56,7 +56,7 @@ Light radiance(Ray primary, bool lit) {
     } else {
       light.deepest_hit = max(light.deepest_hit, depth);
       Surface surface = surface_at(ray, hit);
-      if (lit) {
+      if (lit && !(through > 0.0 && weight < faintest_ray)) {
         int level = faintest_ray > 0.0 ? faint_level(weight * (1.0 - through)) : 0;
         vec3 visibility = ambient_visibility(surface, level, light.other_rays);
         light.radiance += weight * tint * local_light(surface, shadows, level, visibility, light.other_rays);

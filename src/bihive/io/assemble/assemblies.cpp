@@ -126,14 +126,29 @@ void copy_attributes(SphereAttributes& attributes, const std::vector<std::size_t
   for (NamedTexts& column : attributes.texts) copy_column(column.text_of_sphere, from);
 }
 
-// The copies so far: where each comes from, and where it is.
+// The copies so far: where each comes from, and where it is. Bonds join spheres of one copy.
 struct Copies {
   std::vector<std::size_t> from;
   std::vector<double> x, y, z, copy;
+  StatedBonds bonds;
 };
+
+void add_bonds_of_copy(const RawSpheres& spheres, const std::vector<std::size_t>& members, Copies& copies) {
+  if (spheres.attributes.bonds.empty()) return;
+  constexpr std::int32_t kNone = -1;
+  std::vector<std::int32_t> copy_of(spheres.size(), kNone);
+  auto copy = static_cast<std::int32_t>(copies.from.size());
+  for (const std::size_t i : members) copy_of[i] = copy++;
+  for (const StatedBond& bond : spheres.attributes.bonds.list) {
+    const std::int32_t one = copy_of[static_cast<std::size_t>(bond.one)];
+    const std::int32_t other = copy_of[static_cast<std::size_t>(bond.other)];
+    if (one != kNone && other != kNone) copies.bonds.add(one, other, bond.order);
+  }
+}
 
 Status add_copy(const RawSpheres& spheres, const std::vector<std::size_t>& members, const Matrix& m, double number,
                 Copies& copies) {
+  add_bonds_of_copy(spheres, members, copies);
   for (const std::size_t i : members) {
     const double x = spheres.x[i], y = spheres.y[i], z = spheres.z[i];
     const std::array<double, 3> place{m[0] * x + m[1] * y + m[2] * z + m[3], m[4] * x + m[5] * y + m[6] * z + m[7],
@@ -208,6 +223,8 @@ Status expand_assembly(RawSpheres& spheres, const std::string& id, const std::st
 
   // Take the copies in place of the file's spheres.
   copy_attributes(spheres.attributes, copies.from);
+  spheres.attributes.bonds.list = std::move(copies.bonds.list);
+  spheres.attributes.bonds.put_in_order();
   copy_column(spheres.r, copies.from);
   spheres.x = std::move(copies.x);
   spheres.y = std::move(copies.y);

@@ -12,6 +12,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/base/watch.h"
 #include "bihive/geometry/lattice.h"
+#include "bihive/io/assemble/exposed_area.h"
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/assemble/unknown_radii.h"
 #include "bihive/io/assemble/wrapping.h"
@@ -161,6 +162,7 @@ Result<RoundingLoss> SphereFinisher::round(const WorldEnds& ends_of_whole, Vec3d
                                      origin.x, origin.y, origin.z));
 
   set_.cell() = raw_.cell;
+  if (Status status = add_exposed_area(set_, options_, raw_.attributes); !status) return named(status.error());
   if (Status status = set_.replicate(images_.vectors, images_.counts); !status) {
     Error error = named(status.error());
     error.hint = "see " + setting_name("replicate") + " and " + setting_name("cell_vectors");

@@ -6,11 +6,14 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
+#include "bihive/io/column_choice.h"
 #include "bihive/io/residue_runs.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -74,11 +77,15 @@ void wrap(RawSpheres& raw, const Shares& shares) {
   raw.rules.push_back("wrapped: every centre moved into the cell by whole vectors");
 }
 
-const NamedNumbers* column_of(const RawSpheres& raw, std::initializer_list<std::string_view> names) {
+const NamedNumbers* column_of(const RawSpheres& raw, std::span<const std::string_view> names) {
   for (const std::string_view name : names)
     for (const NamedNumbers& column : raw.attributes.numbers)
       if (lower_case(column.name) == name) return &column;
   return nullptr;
+}
+
+const NamedNumbers* column_of(const RawSpheres& raw, std::string_view name) {
+  return column_of(raw, {&name, 1});
 }
 
 Error no_flag(const RawSpheres&, std::size_t i, const std::string& name) {
@@ -136,8 +143,8 @@ Together by_molecule(const NamedNumbers& molecule) {
 
 Together by_bonds(const RawSpheres& raw) {
   Together together{{}, "along the bonds that the file states"};
-  for (const auto& [one, other] : raw.bonds)
-    together.pairs.push_back({static_cast<std::size_t>(one), static_cast<std::size_t>(other)});
+  for (const StatedBond& bond : raw.attributes.bonds.list)
+    together.pairs.push_back({static_cast<std::size_t>(bond.one), static_cast<std::size_t>(bond.other)});
   return together;
 }
 
@@ -151,11 +158,11 @@ Together by_residue(const RawSpheres& raw, const NamedNumbers& number) {
 }
 
 std::optional<Together> find_together(const RawSpheres& raw) {
-  if (const NamedNumbers* const molecule = column_of(raw, {"mol", "molecule", "mol_id", "molecule_id"}))
-    return by_molecule(*molecule);
-  const NamedNumbers* const residue = column_of(raw, {"resid"});
-  if (raw.bonds.empty()) return residue != nullptr ? std::optional(by_residue(raw, *residue)) : std::nullopt;
-  if (residue == nullptr || !raw.bonds_are_some) return by_bonds(raw);
+  if (const NamedNumbers* const molecule = column_of(raw, kMoleculeColumns)) return by_molecule(*molecule);
+  const NamedNumbers* const residue = column_of(raw, "resid");
+  const StatedBonds& bonds = raw.attributes.bonds;
+  if (bonds.empty()) return residue != nullptr ? std::optional(by_residue(raw, *residue)) : std::nullopt;
+  if (residue == nullptr || bonds.are_all) return by_bonds(raw);
   Together together = by_bonds(raw), residues = by_residue(raw, *residue);
   together.pairs.insert(together.pairs.end(), residues.pairs.begin(), residues.pairs.end());
   together.known_by += ", and " + residues.known_by;
@@ -223,8 +230,7 @@ Status apply_wrapping(RawSpheres& raw, Wrapping wrapping, const std::string& nam
     wrap(raw, shares);
     return Done{};
   }
-  const std::array<const NamedNumbers*, 3> flags{column_of(raw, {"ix"}), column_of(raw, {"iy"}),
-                                                 column_of(raw, {"iz"})};
+  const std::array<const NamedNumbers*, 3> flags{column_of(raw, "ix"), column_of(raw, "iy"), column_of(raw, "iz")};
   if (wrapping == Wrapping::unwrap && flags[0] != nullptr && flags[1] != nullptr && flags[2] != nullptr)
     return unwrap_by_flags(raw, shares, flags, name);
   const std::optional<Together> together = find_together(raw);

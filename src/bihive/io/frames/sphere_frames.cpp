@@ -151,6 +151,7 @@ Vec3d SphereFrames::origin_of_first_frame() const {
 }
 
 Result<SphereFile> SphereFrames::made_of(RawSpheres raw, std::int64_t frame) const {
+  raw.attributes.bonds.put_in_order();
   if (is_moved())
     if (Status status = take_places(frame, raw); !status) return status.error();
   if (!is_moved() && raw.frames > 1)

@@ -108,6 +108,11 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
                  "leave out the clips"};
   if (is_cut != tracer.has_clips())
     return Error{"the tracer does not have the clips of the scene", "", 0, 0, "build the tracer from the scene"};
+  if (Status status = check_sticks(scene); !status) return status.error();
+  if (of_tree && !scene.sticks.empty())
+    return Error{"this view shows the tree of the spheres, and there are sticks", "", 0, 0, "leave out the sticks"};
+  if (tracer.has_sticks() == scene.sticks.empty())
+    return Error{"the tracer does not have the sticks of the scene", "", 0, 0, "build the tracer from the scene"};
   if (of_tree && tracer.tree() == nullptr)
     return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                  "choose the reference engine"};

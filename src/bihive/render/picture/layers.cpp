@@ -35,6 +35,11 @@ Result<Layer> layer_from_word(const std::string& word) {
   return Error{"there is no layer \"" + word + "\"; the layers are " + known + "and attribute:NAME", "", 0, 0, ""};
 }
 
+// Sticks are numbered after the spheres of the input, hidden ones counted.
+std::int64_t first_id_of_sticks(const Scene& scene) {
+  return std::max(scene.size_of_input * scene.spheres.images().count(), scene.spheres.total_size());
+}
+
 // The channels that a layer has, in this order.
 std::vector<std::string> channel_names(const Layer& layer) {
   switch (layer.kind) {
@@ -91,13 +96,16 @@ class LayerWriter {
 
   std::uint32_t id_of(const SceneHit& hit) const {
     if (!hit.found()) return kIdOfNothing;
-    return hit.id == kPlane ? kIdOfPlane : static_cast<std::uint32_t>(input_id(scene_, hit.id));
+    if (hit.id == kPlane) return kIdOfPlane;
+    const std::int64_t half = hit.id - scene_.spheres.total_size();
+    return static_cast<std::uint32_t>(half < 0 ? input_id(scene_, hit.id) : first_id_of_sticks(scene_) + half / 2);
   }
 
   double number_of(const SceneHit& hit) const {
     if (hit.id < 0) return std::numeric_limits<double>::quiet_NaN();
-    if (attribute_.number == FoundAttribute::Number::index) return static_cast<double>(input_id(scene_, hit.id));
-    return attribute_.number_of(scene_.spheres, hit.id);
+    const std::int64_t sphere = shown_sphere(scene_, hit.id);
+    if (attribute_.number == FoundAttribute::Number::index) return static_cast<double>(input_id(scene_, sphere));
+    return attribute_.number_of(scene_.spheres, sphere);
   }
 
   const Scene& scene_;
@@ -147,7 +155,8 @@ Status check_layers(const Scene& scene, const std::vector<Layer>& layers) {
     if (std::count(names.begin(), names.end(), names.back()) > 1)
       return Error{"the layer " + names.back() + " stands twice", "", 0, 0, "leave one out"};
     const bool has_ids = layer.kind == LayerKind::id && scene.spheres.size() > 0;
-    if (has_ids && input_id(scene, scene.spheres.total_size() - 1) >= std::int64_t{kIdOfPlane})
+    if (has_ids && (input_id(scene, scene.spheres.total_size() - 1) >= std::int64_t{kIdOfPlane} ||
+                    first_id_of_sticks(scene) + scene.sticks.total_size(scene.spheres) > std::int64_t{kIdOfPlane}))
       return Error{"ids of this many spheres need more than 32 bits", "", 0, 0, "leave the layer id out"};
     if (layer.kind != LayerKind::attribute) continue;
     const FoundAttribute attribute = find_attribute(scene.spheres, layer.attribute);

@@ -135,6 +135,9 @@ void PostProcessing::find_depths(const Tile& grown, const CameraSample& sample, 
     const auto at = static_cast<std::size_t>(buffers.place[static_cast<std::size_t>(i)]);
     // Fog and outlines do not know a plane that shows shadows alone.
     if (wave_scene_.shadows_only && rays.id[i] == kPlane) rays.id[i] = kNothing;
+    // Both halves of a stick are one thing.
+    const std::int64_t half = rays.id[i] - scene_.spheres.total_size();
+    if (half >= 0) rays.id[i] -= half % 2;
     buffers.id[at] = rays.id[i];
     const Vec3d direction{double(wave.direction[0][i]), double(wave.direction[1][i]), double(wave.direction[2][i])};
     buffers.depth[at] = rays.id[i] == kNothing ? kBackgroundDepth : rays.t[i] * dot(direction, rays_.forward());
@@ -162,7 +165,7 @@ void PostProcessing::find_runs(std::int64_t row, EffectBuffers& buffers) const {
 
 PostProcessing::Line PostProcessing::line_of(std::int64_t id) const {
   const SphereAttributes& attributes = scene_.spheres.attributes();
-  const auto i = static_cast<std::size_t>(scene_.spheres.stored_id(id));
+  const auto i = static_cast<std::size_t>(scene_.spheres.stored_id(shown_sphere(scene_, id)));
   const double own = attributes.outline_px.empty() ? -1 : double(attributes.outline_px[i]);
   const double outline = own >= 0 ? own : all_outlined_ ? outline_->width_px : 0;
   const double width = (outline > 0 || attributes.crease.empty() ? outline : Outline().width_px) * line_unit_px_;
@@ -171,7 +174,9 @@ PostProcessing::Line PostProcessing::line_of(std::int64_t id) const {
 
 std::int32_t PostProcessing::group(std::int64_t id) const {
   const std::vector<std::int32_t>& groups = scene_.spheres.attributes().crease;
-  return groups.empty() || id < 0 ? 0 : groups[static_cast<std::size_t>(scene_.spheres.stored_id(id))];
+  return groups.empty() || id < 0
+             ? 0
+             : groups[static_cast<std::size_t>(scene_.spheres.stored_id(shown_sphere(scene_, id)))];
 }
 
 double PostProcessing::outline_at(const EffectBuffers& buffers, std::int64_t at, std::int64_t row) const {
@@ -180,7 +185,10 @@ double PostProcessing::outline_at(const EffectBuffers& buffers, std::int64_t at,
   const Line line = line_of(id);
   if (!(line.width_px > 0)) return 0;
   const double depth = buffers.depth[static_cast<std::size_t>(at)];
-  const double radius = scene_.spheres.radius(id);
+  const double radius =
+      id < scene_.spheres.total_size()
+          ? scene_.spheres.radius(id)
+          : scene_.sticks.stored_radius((id - scene_.spheres.total_size()) / 2) * scene_.spheres.inverse_scale();
   const double pixel = length(rays_.right()) * (rays_.parallel() ? 1 : depth);
   const double width = std::min(line.width_px, radius / (kRadiusInLines * pixel));
   const double reach = std::max(width, 1.0);

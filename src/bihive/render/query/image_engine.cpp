@@ -19,28 +19,11 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 // Rounding moves the centre of an image by up to 2^-25, and the sums here have errors of some 2^-53.
 constexpr double kImagePad = 0x1p-24;
-// Boxes of images, for rays one at a time: the same, and as much for the box of the stored spheres.
-constexpr double kBoxPad = 0x1p-22;
 
 // Rays that start farther away are not for the boxes in binary32.
 constexpr double kFarthestForBoxes = 1e18;
 
 }  // namespace
-
-bool ImageEngine::Range::is_single() const {
-  return end[0] - first[0] == 1 && end[1] - first[1] == 1 && end[2] - first[2] == 1;
-}
-
-std::array<ImageEngine::Range, 2> ImageEngine::Range::halves(std::size_t& side) const {
-  side = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (end[k] - first[k] > end[side] - first[side]) side = k;
-  std::array<Range, 2> two{*this, *this};
-  const std::int32_t middle = first[side] + (end[side] - first[side]) / 2;
-  two[0].end[side] = middle;
-  two[1].first[side] = middle;
-  return two;
-}
 
 Result<std::shared_ptr<const RayEngine>> ImageEngine::build(const SphereSet& whole,
                                                             const std::vector<std::int64_t>* ids,
@@ -81,12 +64,6 @@ Result<std::shared_ptr<const RayEngine>> ImageEngine::build(const SphereSet& who
   }
 }
 
-ImageEngine::Box ImageEngine::box_of(const Range& range) const {
-  const Images::Shifts shifts = spheres().images().shifts(range.first, range.end);
-  const double scale = spheres().scale();
-  return {stored_box_.lo + scale * shifts.lo, stored_box_.hi + scale * shifts.hi};
-}
-
 Vec3d ImageEngine::stored_shift(const Range& image) const {
   return spheres().scale() * spheres().images().shift(image.first);
 }
@@ -124,34 +101,11 @@ struct ImageEngine::AnswerOfImage {
   double limit() const { return answer.limit(); }
 };
 
-// Calls visit(image), which returns true to end, for the images whose boxes the ray meets up to visit.limit(), the
-// nearer half of them first.
 template <class Visit>
 void ImageEngine::visit_images(const Ray& ray, Visit& visit) const {
   if (spheres().empty()) return;
-  const ScaledRay scaled(ray, spheres().scale());
-  const Slabs slabs(scaled, kBoxPad);
-  std::vector<Range> waiting{all_images()};
-  while (!waiting.empty()) {
-    const Range range = waiting.back();
-    waiting.pop_back();
-    const Box box = box_of(range);
-    Interval part{scaled.t_min, std::min(scaled.t_max, visit.limit())};
-    for (int axis = 0; axis < 3; ++axis) {
-      part = slabs.above(part, axis, box.lo[axis]);
-      part = slabs.below(part, axis, box.hi[axis]);
-    }
-    if (part.empty()) continue;
-    if (range.is_single()) {
-      if (visit.visit(range)) return;
-      continue;
-    }
-    std::size_t side = 0;
-    const std::array<Range, 2> two = range.halves(side);
-    const bool first_is_near = dot(spheres().images().vectors[side], scaled.direction) >= 0;
-    waiting.push_back(two[first_is_near ? 1 : 0]);
-    waiting.push_back(two[first_is_near ? 0 : 1]);
-  }
+  const double scale = spheres().scale();
+  visit_image_boxes(spheres().images(), scale, stored_box_, ScaledRay(ray, scale), visit);
 }
 
 // Flattened, as ReferenceEngine is.

@@ -14,6 +14,7 @@
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere_set.h"
 #include "bihive/render/query/build_engine.h"
+#include "bihive/render/query/image_ranges.h"
 #include "bihive/render/query/ray_engine.h"
 
 namespace bihive {
@@ -40,17 +41,8 @@ class ImageEngine final : public RayEngine {
   const WideTree* wide_tree() const override { return wide_.get(); }
 
  private:
-  // Neighbouring images: from `first` to before `end` along each vector.
-  struct Range {
-    std::array<std::int32_t, 3> first, end;
-
-    bool is_single() const;
-    // Both halves along the longest side, which is number `side`.
-    std::array<Range, 2> halves(std::size_t& side) const;
-  };
-  struct Box {
-    Vec3d lo, hi;
-  };
+  using Range = ImageRange;
+  using Box = ImageBox;
   struct RayBox;
   struct Batch;
   template <bool kAnyHit>
@@ -60,7 +52,9 @@ class ImageEngine final : public RayEngine {
   struct AnswerOfImage;
 
   Range all_images() const { return {{0, 0, 0}, spheres().images().counts}; }
-  Box box_of(const Range& range) const;
+  Box box_of(const Range& range) const {
+    return bihive::box_of(range, stored_box_, spheres().images(), spheres().scale());
+  }
   Vec3d stored_shift(const Range& image) const;
   const SphereSet& spheres() const { return ids_.empty() ? *whole_ : part_; }
   std::int64_t whole_id(std::int64_t id, std::int64_t image) const {

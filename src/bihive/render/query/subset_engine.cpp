@@ -73,7 +73,7 @@ Ray SubsetEngine::translated(const Ray& ray) const {
   Ray here = ray;
   here.leaves = subset_->equal_of(ray.leaves);
   if (cuts_ == nullptr || !cuts_->is_cut(ray.leaves)) return here;
-  if (here.leaves == kNothing && !cuts_->has_round_clips()) return here;
+  if (here.leaves == kNothing && !cuts_->has_round_clips() && !cuts_->is_of_stick(ray.leaves)) return here;
   const CutRay entered = cuts_->entering(ray, 0);
   here.leaves = subset_->equal_of(entered);
   here.inside = entered.ray.inside;
@@ -93,7 +93,8 @@ RaySpan SubsetEngine::translated(const RaySpan& rays) const {
     all_leaves[i] = subset_->equal_of(rays.leaves[i]);
     if (cuts_ == nullptr) continue;
     all_inside[i] = rays.inside != nullptr ? rays.inside[i] : 0;
-    if (!cuts_->is_cut(rays.leaves[i]) || (all_leaves[i] == kNothing && !cuts_->has_round_clips())) continue;
+    if (!cuts_->is_cut(rays.leaves[i])) continue;
+    if (all_leaves[i] == kNothing && !cuts_->has_round_clips() && !cuts_->is_of_stick(rays.leaves[i])) continue;
     const Ray ray = translated(rays.at(static_cast<std::int64_t>(i)));
     all_leaves[i] = ray.leaves;
     all_inside[i] = ray.inside ? 1 : 0;

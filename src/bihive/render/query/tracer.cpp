@@ -1,11 +1,14 @@
 #include "bihive/render/tracer.h"
 
 #include <algorithm>
+#include <new>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "bihive/base/check.h"
+#include "bihive/base/memory.h"
 #include "bihive/base/timer.h"
 #include "bihive/base/watch.h"
 #include "bihive/geometry/cut_sphere.h"
@@ -13,6 +16,7 @@
 #include "bihive/render/query/pixel_order.h"
 #include "bihive/render/query/reference_engine.h"
 #include "bihive/render/query/remote_rays.h"
+#include "bihive/render/query/stick_engine.h"
 #include "bihive/render/query/wide_engine.h"
 #include "bihive/scene/clips.h"
 
@@ -54,21 +58,41 @@ Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParame
                              std::int64_t first) {
   if (scene.spheres.has_images() && bihive::has_clips(scene))
     return Error{"clips cannot cut the copies of a replicated set", "", 0, 0, "leave out the clips or the copies"};
+  if (Status status = check_sticks(scene); !status) return status.error();
   std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   const std::int64_t count = first < 0 ? scene.spheres.size() : first;
   BIHIVE_CHECK(cuts != nullptr || count == scene.spheres.size());
-  if (cuts == nullptr) return build(scene.spheres, engine, parameters, threads);
+  if (cuts == nullptr) {
+    Result<Tracer> tracer = build(scene.spheres, engine, parameters, threads);
+    if (!tracer || scene.sticks.empty()) return tracer;
+    return with_sticks(std::move(*tracer), scene.sticks, nullptr);
+  }
   WatchedWork work(WatchedWork::InnerProgress::passed_on);
   const Timer timer;
   const EngineParameters built(engine, parameters, threads);
   std::vector<std::int64_t> all(static_cast<std::size_t>(count));
   std::iota(all.begin(), all.end(), 0);
-  Result<std::shared_ptr<const RayEngine>> rays = build_engine(scene.spheres, std::move(all), std::move(cuts), built);
+  Result<std::shared_ptr<const RayEngine>> rays = build_engine(scene.spheres, std::move(all), cuts, built);
   if (!rays) return rays.error();
   Tracer tracer(scene.spheres, built.engine, std::move(*rays));
   tracer.has_clips_ = true;
   if (!is_brute(built.engine)) tracer.build_ms_ = timer.elapsed_ms();
   work.report(1);
+  if (scene.sticks.empty()) return tracer;
+  return with_sticks(std::move(tracer), scene.sticks, std::move(cuts));
+}
+
+Result<Tracer> Tracer::with_sticks(Tracer tracer, const StickSet& sticks, std::shared_ptr<const CutSet> cuts) {
+  const Timer timer;
+  try {
+    tracer.rays_ = std::make_shared<StickEngine>(*tracer.spheres_, sticks, std::move(tracer.rays_), std::move(cuts));
+  } catch (const Cancelled&) {
+    return cancelled_error();
+  } catch (const std::bad_alloc&) {
+    return no_memory_for("the tree of " + std::to_string(sticks.size()) + " sticks");
+  }
+  tracer.has_sticks_ = true;
+  tracer.build_ms_ += timer.elapsed_ms();
   return tracer;
 }
 

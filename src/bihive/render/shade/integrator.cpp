@@ -21,7 +21,7 @@ void Integrator::find_hits(std::size_t ray, Vec3d& sum) {
     to_eye_->find_crossings(item.ray, crossings_);
     for (const Crossing& crossing : crossings_) {
       if (!(crossing.t < end.t)) break;
-      hits_.push_back({ray, {crossing.t, crossing.id}, weight, tint});
+      if (is_followed(weight)) hits_.push_back({ray, {crossing.t, crossing.id}, weight, tint});
       weight = weight * to_eye_->passing(crossing.id);
       tint = tint * to_eye_->tint(crossing.id);
     }

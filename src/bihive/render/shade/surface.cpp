@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bihive/geometry/cut_sphere.h"
+#include "bihive/geometry/stick_set.h"
 #include "bihive/scene/clips.h"
 
 namespace bihive {
@@ -22,6 +23,11 @@ Vec3d checker_colour(const ScenePlane& plane, const Checker& checker, Vec3d poin
 }
 
 }  // namespace
+
+Vec3d stick_normal(const Scene& scene, const Ray& ray, const SceneHit& hit) {
+  const std::int64_t stick = (hit.id - scene.spheres.total_size()) / 2;
+  return stick_normal(ScaledRay(ray, scene.spheres.scale()), scene.sticks.stored(scene.spheres, stick), hit.t);
+}
 
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit) {
   const std::shared_ptr<const CutSet> cuts = scene.clips.empty() ? nullptr : cut_set_of(scene);
@@ -45,8 +51,13 @@ Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit, cons
     if (scene.plane->checker) surface.material.colour = checker_colour(*scene.plane, *scene.plane->checker, point);
   } else {
     if (cuts == nullptr || !cuts->cap_normal(ray, hit.id, outward))
-      outward = normalized((origin - scene.spheres.local_centre(hit.id)) + along);
-    surface.material = material_of(scene, hit.id);
+      outward = hit.id >= scene.spheres.total_size()
+                    ? stick_normal(scene, ray, hit)
+                    : normalized((origin - scene.spheres.local_centre(hit.id)) + along);
+    surface.material = material_of(scene, shown_sphere(scene, hit.id));
+    const std::int64_t half = hit.id - scene.spheres.total_size();
+    if (half >= 0)
+      if (const Vec3f* const own = scene.sticks.colour_at(half)) surface.material.colour = to_double(*own);
   }
   surface.from_inside = dot(surface.incoming, outward) > 0;
   surface.normal = surface.from_inside ? -outward : outward;

@@ -169,7 +169,7 @@ void Collapse::make_subtree(Subtree& subtree) const {
   }
 }
 
-void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads, const WatchedWork& work) {
+void Collapse::run(const BinaryNode& root, const CollapseParameters& parameters, int threads, WatchedWork& work) {
   parameters_ = parameters;
 
   // Build the top here; each subtree of at most kSubtreeSpheres spheres becomes a task.

@@ -18,7 +18,7 @@ struct CollapseParameters {
 class Collapse {
  public:
   /// Throws std::bad_alloc, and Cancelled if the work is.
-  void run(const BinaryNode& root, const CollapseParameters& parameters, int threads, const WatchedWork& work);
+  void run(const BinaryNode& root, const CollapseParameters& parameters, int threads, WatchedWork& work);
 
   std::int64_t node_count() const { return node_count_; }
   int levels() const { return levels_; }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 
+#include "bihive/base/watch.h"
 #include "bihive/geometry/sphere_distance.h"
 #include "bihive/wide/trace/points.h"
 #include "bihive/wide/wide_builder.h"
@@ -132,6 +133,7 @@ void PeriodicImages::find_within(const WideTree& tree, const wide::PointQuestion
   const Place place = place_of(tree, question);
   const double pad = rounding(place, std::abs(question.limit) + largest_radius_);
   any_image(range_of(place, question.limit + pad), [&](const ImageCounts& counts) {
+    stop_chunk_if_cancelled();
     const std::size_t known = found.size();
     wide::find_within(place.tree, place.to_tree(lattice_, counts, question.limit + pad), found);
     if (!place.moves_spheres) return false;
@@ -157,6 +159,7 @@ std::int64_t PeriodicImages::nearest_of(const Place& place, double within, std::
   const auto in_units = [&](double distance) { return distance / place.units; };
   std::int64_t count = 0;
   const auto look_at = [&](const ImageCounts& counts) {
+    stop_chunk_if_cancelled();
     count = wide::find_nearest(place.tree, place.to_tree(lattice_, counts, limit), most, nearest, count);
     return false;
   };

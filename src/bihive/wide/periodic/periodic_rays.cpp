@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/watch.h"
 #include "bihive/bih/traversal.h"
 #include "bihive/geometry/sphere.h"
 #include "bihive/wide/periodic_images.h"
@@ -279,6 +280,7 @@ std::int64_t PeriodicImages::closest_hits(const WideTree& tree, const RaySpan& r
                                           const std::int64_t* exclude) const {
   bihive::closest_hits(tree, rays, RayOrder::any, hits);
   for (std::int64_t i = 0; i < rays.count; ++i) {
+    stop_chunk_if_cancelled();
     const Ray ray = rays.at(i);
     NearestOfRay<false> nearest;
     if (exclude != nullptr) nearest.passed_over = PassedOver(tree, exclude[i]);
@@ -296,6 +298,7 @@ std::int64_t PeriodicImages::occluded(const WideTree& tree, const RaySpan& rays,
                                       const std::int64_t* exclude) const {
   bihive::occluded(tree, rays, RayOrder::any, hidden);
   for (std::int64_t i = 0; i < rays.count; ++i) {
+    stop_chunk_if_cancelled();
     const Ray ray = rays.at(i);
     NearestOfRay<true> nearest;
     if (exclude != nullptr) nearest.passed_over = PassedOver(tree, exclude[i]);
@@ -312,6 +315,7 @@ std::int64_t PeriodicImages::all_hits(const WideTree& tree, const RaySpan& rays,
                                       const std::int64_t* exclude) const {
   hits.clear();
   for (std::int64_t i = 0; i < rays.count; ++i) {
+    stop_chunk_if_cancelled();
     const std::size_t first = hits.size();
     AllHitsOfRay all{i, hits, {}};
     if (exclude != nullptr) all.passed_over = PassedOver(tree, exclude[i]);

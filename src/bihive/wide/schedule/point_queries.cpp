@@ -2,17 +2,17 @@
 #include "bihive/wide/point_queries.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <new>
 #include <string>
 #include <utility>
 
-#include "bihive/base/parallel.h"
+#include "bihive/base/watch.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/wide/schedule/check_reach.h"
 #include "bihive/wide/schedule/point_order.h"
+#include "bihive/wide/schedule/resize_in_steps.h"
 #include "bihive/wide/schedule/tuning.h"
 #include "bihive/wide/trace/points.h"
 
@@ -39,6 +39,7 @@ Error bad_point(std::int64_t i, const std::string& what, double value) {
 Status check_points(const PointSpan& points) {
   constexpr double kLargest = std::numeric_limits<float>::max();
   for (std::int64_t i = 0; i < points.count; ++i) {
+    if (i % kPointsAtATime == 0) stop_if_cancelled();
     const Vec3d at = points.at(i);
     for (int axis = 0; axis < 3; ++axis) {
       const std::string name(1, "xyz"[axis]);
@@ -50,10 +51,17 @@ Status check_points(const PointSpan& points) {
   return Done{};
 }
 
+// Points of a chunk between two looks whether the call is cancelled.
+constexpr std::int64_t kPointsBetweenLooks = 32;
+
+// The share of a batch that is done when its points are answered.
+constexpr double kShareOfAnswers = 0.9;
+
 // Calls answer(i) for each point, in an order that serves the cache: chunk by chunk on threads. begin(chunks) is called
-// before the chunks of a batch, end(first, order) after them. False: there was not enough memory.
+// before the chunks of a batch, end(first, order, done) after them, whose own share of the work starts there. Throws
+// std::bad_alloc, and Cancelled.
 template <class Begin, class Answer, class End>
-bool for_each_point(const WideTree& tree, const PointSpan& points, int threads, const Begin& begin,
+void for_each_point(const WideTree& tree, const PointSpan& points, int threads, const Begin& begin,
                     const Answer& answer, const End& end) {
   PointOrder sorter;
   std::vector<std::uint32_t> order;
@@ -64,20 +72,35 @@ bool for_each_point(const WideTree& tree, const PointSpan& points, int threads, 
     sorter.find(tree, part, order);
     const std::int64_t chunks = (part.count + kPointsPerChunk - 1) / kPointsPerChunk;
     begin(chunks);
-    std::atomic<bool> no_memory{false};
-    parallel_for(threads, chunks, [&](std::int64_t chunk) {
-      try {
-        const std::int64_t last = std::min(part.count, (chunk + 1) * kPointsPerChunk);
-        for (std::int64_t k = chunk * kPointsPerChunk; k < last; ++k)
-          answer(chunk, first + order[static_cast<std::size_t>(k)]);
-      } catch (const std::bad_alloc&) {
-        no_memory = true;
-      }
-    });
-    if (no_memory) return false;
-    end(first, order);
+    const auto share = [&](double of_batch) {
+      return (double(first) + of_batch * double(part.count)) / double(points.count);
+    };
+    watched_for(
+        threads, chunks,
+        [&](std::int64_t chunk) {
+          const std::int64_t last = std::min(part.count, (chunk + 1) * kPointsPerChunk);
+          for (std::int64_t k = chunk * kPointsPerChunk; k < last; ++k) {
+            if (k % kPointsBetweenLooks == 0) stop_chunk_if_cancelled();
+            answer(chunk, first + order[static_cast<std::size_t>(k)]);
+          }
+        },
+        share(0), share(kShareOfAnswers));
+    end(first, order, share(kShareOfAnswers));
+    stop_if_cancelled(first + part.count == points.count ? 1 : share(1));
   }
-  return true;
+}
+
+// Calls find(), which may throw Cancelled and std::bad_alloc, as watched work.
+template <class Answers, class Find>
+Result<Answers> watched(std::int64_t points, const Find& find) {
+  WatchedWork work;
+  try {
+    return find();
+  } catch (const Cancelled&) {
+    return cancelled_error();
+  } catch (const std::bad_alloc&) {
+    return no_memory_for_points(points);
+  }
 }
 
 // limit(i) is that of point i, in world units.
@@ -90,6 +113,13 @@ Status check_limits(const WideTree& tree, const PointSpan& points, const Limit& 
   double largest = 0;
   for (std::int64_t i = 0; i < points.count; ++i) largest = std::max(largest, limit(i));
   return check_reach(*options.images, largest * tree.scale);
+}
+
+// Resizes lists batch by batch, without a copy of them for each.
+template <class T>
+void grow(std::vector<T>& values, std::size_t size, T value) {
+  if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));
+  resize_in_steps(values, size, value);
 }
 
 bool is_before_by_id(const NearSphere& a, const NearSphere& b) {
@@ -128,14 +158,14 @@ std::int64_t leave_out(NearSphere* nearest, std::int64_t count, std::int64_t sph
 template <class Limit>
 Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, const Limit& limit,
                                const PointOptions& options) {
-  if (Status status = check_limits(tree, points, limit, options); !status) return status.error();
-  try {
+  return watched<SphereLists>(points.count, [&]() -> Result<SphereLists> {
+    if (Status status = check_limits(tree, points, limit, options); !status) return status.error();
     SphereLists lists;
     lists.begin.assign(static_cast<std::size_t>(points.count) + 1, 0);
     const double unit = 1 / tree.scale;
     std::vector<std::vector<NearSphere>> found;
     const auto count_of = [&](std::int64_t i) -> std::int64_t& { return lists.begin[static_cast<std::size_t>(i) + 1]; };
-    const bool done = for_each_point(
+    for_each_point(
         tree, points, options.threads,
         [&](std::int64_t chunks) {
           found.clear();
@@ -148,14 +178,14 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
           std::sort(here.begin() + static_cast<std::ptrdiff_t>(known), here.end(), is_before_by_id);
           count_of(i) = static_cast<std::int64_t>(here.size() - known);
         },
-        [&](std::int64_t first, const std::vector<std::uint32_t>& order) {
+        [&](std::int64_t first, const std::vector<std::uint32_t>& order, double done) {
           // Turn the counts of this batch into offsets, then copy.
           const auto part = static_cast<std::int64_t>(order.size());
           for (std::int64_t i = first; i < first + part; ++i) count_of(i) += lists.begin[static_cast<std::size_t>(i)];
           const auto total = static_cast<std::size_t>(lists.begin[static_cast<std::size_t>(first + part)]);
-          lists.sphere_id.resize(total);
-          lists.distance.resize(total);
-          parallel_for(options.threads, static_cast<std::int64_t>(found.size()), [&](std::int64_t chunk) {
+          grow(lists.sphere_id, total, kNothing);
+          grow(lists.distance, total, 0.0);
+          const auto copy = [&](std::int64_t chunk) {
             const std::vector<NearSphere>& here = found[static_cast<std::size_t>(chunk)];
             std::size_t next = 0;
             const std::int64_t last = std::min(part, (chunk + 1) * kPointsPerChunk);
@@ -167,13 +197,11 @@ Result<SphereLists> find_lists(const WideTree& tree, const PointSpan& points, co
                 lists.distance[to] = here[next].distance * unit;
               }
             }
-          });
+          };
+          watched_for(options.threads, static_cast<std::int64_t>(found.size()), copy, done, done);
         });
-    if (!done) return no_memory_for_points(points.count);
     return lists;
-  } catch (const std::bad_alloc&) {
-    return no_memory_for_points(points.count);
-  }
+  });
 }
 
 }  // namespace
@@ -188,23 +216,24 @@ Status check_reach(const PeriodicImages& images, double limit) {
 
 Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& points, std::int64_t per_point,
                                        double within, const PointOptions& options) {
-  if (Status status = wide::check_points(points); !status) return status.error();
-  if (per_point < 1)
-    return Error{"the number of nearest spheres must be at least 1 but is " + std::to_string(per_point), "", 0, 0, ""};
-  if (std::isnan(within)) return Error{"the limit of the distance must be a number but is nan", "", 0, 0, ""};
-  try {
+  return wide::watched<NearestSpheres>(points.count, [&]() -> Result<NearestSpheres> {
+    if (Status status = wide::check_points(points); !status) return status.error();
+    if (per_point < 1)
+      return Error{"the number of nearest spheres must be at least 1 but is " + std::to_string(per_point), "", 0, 0,
+                   ""};
+    if (std::isnan(within)) return Error{"the limit of the distance must be a number but is nan", "", 0, 0, ""};
     NearestSpheres nearest;
     nearest.per_point = per_point;
     if (points.count > 0 && per_point > static_cast<std::int64_t>(nearest.distance.max_size()) / points.count)
       return wide::no_memory_for_points(points.count);
     const auto entries = static_cast<std::size_t>(points.count * per_point);
-    nearest.distance.resize(entries, wide::kInfiniteDistance);
-    nearest.sphere_id.resize(entries, kNothing);
+    wide::resize_in_steps(nearest.distance, entries, wide::kInfiniteDistance);
+    wide::resize_in_steps(nearest.sphere_id, entries, kNothing);
     const double unit = 1 / tree.scale;
     const bool periodic = options.images != nullptr;
     const std::int64_t most = periodic ? per_point : std::min(per_point, std::max<std::int64_t>(1, tree.size));
     std::vector<std::vector<wide::NearSphere>> rooms;
-    const bool done = wide::for_each_point(
+    wide::for_each_point(
         tree, points, options.threads, [&](std::int64_t chunks) { rooms.resize(static_cast<std::size_t>(chunks)); },
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
@@ -221,12 +250,9 @@ Result<NearestSpheres> nearest_spheres(const WideTree& tree, const PointSpan& po
             nearest.sphere_id[to] = room[static_cast<std::size_t>(k)].id;
           }
         },
-        [&](std::int64_t, const std::vector<std::uint32_t>&) { rooms.clear(); });
-    if (!done) return wide::no_memory_for_points(points.count);
+        [&](std::int64_t, const std::vector<std::uint32_t>&, double) { rooms.clear(); });
     return nearest;
-  } catch (const std::bad_alloc&) {
-    return wide::no_memory_for_points(points.count);
-  }
+  });
 }
 
 Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points, const double* limits,
@@ -244,11 +270,12 @@ Result<SphereLists> spheres_within(const WideTree& tree, const PointSpan& points
 Result<std::vector<std::int64_t>> count_within(const WideTree& tree, const PointSpan& points, const double* limits,
                                                const PointOptions& options) {
   const auto limit = [limits](std::int64_t i) { return limits[i]; };
-  if (Status status = wide::check_limits(tree, points, limit, options); !status) return status.error();
-  try {
-    std::vector<std::int64_t> counts(static_cast<std::size_t>(points.count));
+  using Counts = std::vector<std::int64_t>;
+  return wide::watched<Counts>(points.count, [&]() -> Result<Counts> {
+    if (Status status = wide::check_limits(tree, points, limit, options); !status) return status.error();
+    Counts counts(static_cast<std::size_t>(points.count));
     std::vector<std::vector<wide::NearSphere>> rooms;
-    const bool done = wide::for_each_point(
+    wide::for_each_point(
         tree, points, options.threads, [&](std::int64_t chunks) { rooms.resize(static_cast<std::size_t>(chunks)); },
         [&](std::int64_t chunk, std::int64_t i) {
           std::vector<wide::NearSphere>& room = rooms[static_cast<std::size_t>(chunk)];
@@ -256,12 +283,9 @@ Result<std::vector<std::int64_t>> count_within(const WideTree& tree, const Point
           wide::find_near(tree, points, i, limit(i) * tree.scale, options, room);
           counts[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(room.size());
         },
-        [](std::int64_t, const std::vector<std::uint32_t>&) {});
-    if (!done) return wide::no_memory_for_points(points.count);
+        [](std::int64_t, const std::vector<std::uint32_t>&, double) {});
     return counts;
-  } catch (const std::bad_alloc&) {
-    return wide::no_memory_for_points(points.count);
-  }
+  });
 }
 
 Result<SphereLists> spheres_containing(const WideTree& tree, const PointSpan& points, PointOptions options) {

@@ -14,6 +14,7 @@ class ReorderedBatch {
  public:
   /// order()[k] is the number of the k-th ray: each number at most once.
   std::vector<std::uint32_t>& order() { return order_; }
+  const std::vector<std::uint32_t>& order() const { return order_; }
 
   void gather(const RaySpan& rays);
   RaySpan rays() const { return rays_.span(); }

@@ -7,8 +7,9 @@
 //                  any:    to one light? in that order: beams -> the remaining ones: lists
 //                          else scattered? in the order of cells: lists
 //                          else lists
-//   all hits,      beams -> the remaining ones, by the sphere that they exit: beams -> the rest: scalar traversal
-//   and depths
+//   all hits       beams -> the remaining ones, by the sphere that they exit: beams -> the rest: lists
+//                  without such spheres: beams -> the remaining ones, in the order of cells if scattered: lists
+//   depths         beams -> the remaining ones, by the sphere that they exit: beams -> the rest: scalar traversal
 //
 // Lists answer all rays that beams do not take at all (beams_take()). Where spheres lie inside others, closest and any
 // hit trace the outer tree first, and then the whole tree with the rays that may reach a core (schedule/core_rays.h).
@@ -18,6 +19,7 @@
 #include <memory>
 #include <vector>
 
+#include "bihive/base/watch.h"
 #include "bihive/wide/optical_depths.h"
 #include "bihive/wide/queries.h"
 #include "bihive/wide/schedule/cell_order.h"
@@ -231,29 +233,6 @@ void occluded_of_tree(const WideTree& tree, const RaySpan& rays, RayOrder order,
 
 // ---- All hits ----
 
-// Calls use(t, id) for each hit of one ray.
-template <class Use>
-struct HitsOfRay {
-  const Use& use;
-
-  bool take(double t, std::int64_t id) const {
-    if (t < std::numeric_limits<double>::infinity()) use(t, id);
-    return false;
-  }
-  static double limit() { return std::numeric_limits<double>::infinity(); }
-};
-
-template <class Use>
-void for_hits_of_ray(const WideTree& tree, const Ray& ray, const Use& use) {
-  if (!is_valid(ray)) return;
-  HitsOfRay<Use> of_ray{use};
-  walk_scalar(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves), of_ray);
-}
-
-void all_hits_of_ray(const WideTree& tree, const RaySpan& rays, std::int64_t i, std::vector<RayHit>& hits) {
-  for_hits_of_ray(tree, rays.at(i), [&](double t, std::int64_t id) { hits.push_back({i, t, id}); });
-}
-
 // Nothing lies between the start and the end of the ray.
 bool is_empty(const RaySpan& rays, std::int64_t i) {
   return rays.t_max != nullptr && rays.t_max[i] < (rays.t_min != nullptr ? rays.t_min[i] : 0);
@@ -275,26 +254,71 @@ bool gather_by_left_sphere(const RaySpan& rays, const RemainingRays& which, Reor
   return true;
 }
 
+// Turns the numbers of hits from number `known` on, which count among the rays of a batch from number `from` on, into
+// those of the span.
+void number_in_span(const ReorderedBatch& batch, std::int64_t from, std::int64_t first, std::size_t known,
+                    std::vector<RayHit>& hits) {
+  for (std::size_t i = known; i < hits.size(); ++i)
+    hits[i].ray = first + batch.order()[static_cast<std::size_t>(from + hits[i].ray)];
+}
+
+void all_hits_by_cell(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) {
+  in_cell_order(tree, rays, [&](ReorderedBatch& batch, const RaySpan& some, std::int64_t from, std::int64_t first) {
+    const std::size_t known = hits.size();
+    all_hits_by_lists(tree, some, hits);
+    number_in_span(batch, from, first, known, hits);
+  });
+}
+
 void all_hits_by_left_sphere(const WideTree& tree, const RaySpan& rays, const RemainingRays& which,
                              std::vector<RayHit>& hits) {
-  ReorderedBatch& batch = memory_of_this_thread().sorted;
+  Memory& memory = memory_of_this_thread();
+  ReorderedBatch& batch = memory.sorted;
   if (!gather_by_left_sphere(rays, which, batch)) return;
-  const std::vector<std::uint32_t>& order = batch.order();
+  const RaySpan sorted = batch.rays();
   const std::size_t known = hits.size();
-  const RemainingRays remaining = all_hits_by_beams(tree, batch.rays(), true, hits);
-  for (std::size_t i = known; i < hits.size(); ++i) hits[i].ray = order[static_cast<std::size_t>(hits[i].ray)];
-  for (const RemainingRays::Run& run : remaining.runs())
-    for (std::int64_t i = run.first; i < run.first + run.count; ++i)
-      all_hits_of_ray(tree, rays, order[static_cast<std::size_t>(i)], hits);
+  const RemainingRays remaining = all_hits_by_beams(tree, sorted, hits);
+  if (remaining.count() > 0) {
+    ReorderedBatch& rest = memory.remaining_of_sorted;
+    for_remaining(
+        sorted, remaining, rest,
+        [&](std::int64_t first, std::int64_t count) {
+          const std::size_t before = hits.size();
+          all_hits_by_lists(tree, sorted.part(first, count), hits);
+          for (std::size_t i = before; i < hits.size(); ++i) hits[i].ray += first;
+        },
+        [&] {
+          const std::size_t before = hits.size();
+          all_hits_by_lists(tree, rest.rays(), hits);
+          number_in_span(rest, 0, 0, before, hits);
+        });
+  }
+  number_in_span(batch, 0, 0, known, hits);
 }
 
 void all_hits_in_any_order(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) {
-  if (!beams_take(tree, rays)) {
-    for (std::int64_t i = 0; i < rays.count; ++i) all_hits_of_ray(tree, rays, i, hits);
-    return;
-  }
-  const RemainingRays remaining = all_hits_by_beams(tree, rays, false, hits);
-  if (remaining.count() > 0) all_hits_by_left_sphere(tree, rays, remaining, hits);
+  if (!beams_take(tree, rays)) return all_hits_by_lists(tree, rays, hits);
+  const RemainingRays remaining = all_hits_by_beams(tree, rays, hits);
+  if (remaining.count() == 0) return;
+  if (rays.leaves != nullptr) return all_hits_by_left_sphere(tree, rays, remaining, hits);
+  // Beams give up early where rays are not neighbours, so that one long run remains.
+  ReorderedBatch& batch = memory_of_this_thread().remaining_of_blocks;
+  for_remaining(
+      rays, remaining, batch,
+      [&](std::int64_t first, std::int64_t count) {
+        const RaySpan some = rays.part(first, count);
+        const std::size_t before = hits.size();
+        if (scattered(tree, some))
+          all_hits_by_cell(tree, some, hits);
+        else
+          all_hits_by_lists(tree, some, hits);
+        for (std::size_t i = before; i < hits.size(); ++i) hits[i].ray += first;
+      },
+      [&] {
+        const std::size_t before = hits.size();
+        all_hits_by_lists(tree, batch.rays(), hits);
+        number_in_span(batch, 0, 0, before, hits);
+      });
 }
 
 // ---- Optical depths ----
@@ -324,18 +348,32 @@ void depths_by_left_sphere(const WideTree& tree, const RaySpan& rays, const Rema
       depths_of_ray(tree, rays, order[static_cast<std::size_t>(i)], depths, sums);
 }
 
-// Counting sort by ray; then the few hits of each ray are sorted by t and id.
-void sort_hits(std::int64_t rays, const std::vector<RayHit>& hits, std::vector<RayHit>& sorted) {
+// Counting sort by ray; then the few hits of each ray are sorted by t and id. They are appended, their rays counted
+// from `first_ray` on.
+void append_sorted(std::int64_t rays, std::int64_t first_ray, const std::vector<RayHit>& hits,
+                   std::vector<RayHit>& sorted) {
   std::vector<std::size_t> next(static_cast<std::size_t>(rays) + 1, 0);
+  auto look = [looked = std::int64_t{0}](std::int64_t more) mutable {
+    if ((looked += more) < kHitsBetweenLooks) return;
+    looked = 0;
+    stop_chunk_if_cancelled();
+  };
   for (const RayHit& hit : hits) ++next[static_cast<std::size_t>(hit.ray) + 1];
   for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-  sorted.resize(hits.size());
-  for (const RayHit& hit : hits) sorted[next[static_cast<std::size_t>(hit.ray)]++] = hit;
+  const std::size_t known = sorted.size();
+  sorted.resize(known + hits.size());
+  const auto place_of = [&](const RayHit& hit) -> std::size_t& { return next[static_cast<std::size_t>(hit.ray)]; };
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (i + kHitsAhead < hits.size()) __builtin_prefetch(sorted.data() + known + place_of(hits[i + kHitsAhead]), 1);
+    sorted[known + place_of(hits[i])++] = {first_ray + hits[i].ray, hits[i].t, hits[i].sphere_id};
+  }
+  stop_chunk_if_cancelled();
   // Now `next` holds the end of each ray's hits.
   std::size_t begin = 0;
   for (std::size_t ray = 0; ray + 1 < next.size(); begin = next[ray], ++ray) {
-    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(next[ray]);
+    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(known + begin);
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(known + next[ray]);
+    look(last - first);
     std::sort(first, last,
               [](const RayHit& a, const RayHit& b) { return a.t != b.t ? a.t < b.t : a.sphere_id < b.sphere_id; });
   }
@@ -346,10 +384,13 @@ void sort_hits(std::int64_t rays, const std::vector<RayHit>& hits, std::vector<R
 
 void all_hits(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& hits) {
   static thread_local std::vector<RayHit> found;
-  found.clear();
-  wide::all_hits_in_any_order(tree, rays, found);
-  add_duplicates(tree, 0, found);
-  wide::sort_hits(rays.count, found, hits);
+  hits.clear();
+  wide::for_some(rays.count, wide::kMostRaysOfHits, [&](std::int64_t first, std::int64_t count) {
+    found.clear();
+    wide::all_hits_in_any_order(tree, rays.part(first, count), found);
+    add_duplicates(tree, 0, found);
+    wide::append_sorted(count, first, found, hits);
+  });
 }
 
 void optical_depths(const WideTree& tree, const RaySpan& rays, const SphereDepths& depths, const DepthSums& sums) {

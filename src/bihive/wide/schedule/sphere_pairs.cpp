@@ -1,15 +1,15 @@
 // Every pair of near spheres: leaf by leaf where the tree allows it, else sphere by sphere, on threads.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <new>
 #include <utility>
 #include <vector>
 
-#include "bihive/base/parallel.h"
+#include "bihive/base/watch.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/schedule/check_reach.h"
+#include "bihive/wide/schedule/resize_in_steps.h"
 #include "bihive/wide/schedule/tuning.h"
 #include "bihive/wide/trace/points.h"
 
@@ -21,6 +21,12 @@ namespace {
 struct FoundPairs {
   std::vector<std::int64_t> first, counts;
   std::vector<NearSphere> second;
+
+  void clear() {
+    first.clear();
+    counts.clear();
+    second.clear();
+  }
 };
 
 // Stored units.
@@ -66,6 +72,7 @@ struct PairSearch {
     for (int slot = 0; slot < node.child_count; ++slot) {
       const std::int64_t first = node.sphere_begin(slot), count = node.sphere_count(slot);
       if (!node.is_leaf(slot) || count == 0) continue;
+      stop_chunk_if_cancelled();
       const std::size_t known = pairs.counts.size();
       for (std::int64_t k = first; k < first + count; ++k) pairs.first.push_back(tree.spheres.id(k));
       pairs.counts.resize(known + static_cast<std::size_t>(count));
@@ -80,6 +87,11 @@ Error no_memory() {
 }
 
 constexpr std::int64_t kNodesPerChunk = 16;
+// A thread keeps the memory of up to this number of pairs, half a megabyte.
+constexpr std::size_t kMostKeptPairs = 1 << 15;
+constexpr std::int64_t kSpheresBetweenLooks = 32;
+// The share of the work that is done when all pairs are found, before they are copied.
+constexpr double kShareOfSearch = 0.8;
 
 }  // namespace
 }  // namespace wide
@@ -92,31 +104,31 @@ Result<SpherePairs> sphere_pairs(const WideTree& tree, const SphereSet& spheres,
     const double largest = spheres.empty() ? 0 : double(*std::max_element(spheres.r().begin(), spheres.r().end()));
     if (Status status = wide::check_reach(*options.images, search.reach + largest); !status) return status.error();
   }
+  WatchedWork work;
   try {
     // Find them in chunks.
     const bool by_leaves = options.images == nullptr && tree.piles.empty() && !tree.is_image;
     const std::int64_t items = by_leaves ? tree.node_count : spheres.size();
     const std::int64_t per_chunk = by_leaves ? wide::kNodesPerChunk : wide::kPointsPerChunk;
-    std::vector<wide::FoundPairs> found(static_cast<std::size_t>((items + per_chunk - 1) / per_chunk));
-    std::atomic<bool> no_memory{false};
-    const auto each_chunk = [&](const auto& work) {
-      parallel_for(options.threads, static_cast<std::int64_t>(found.size()), [&](std::int64_t chunk) {
-        try {
-          work(chunk, found[static_cast<std::size_t>(chunk)]);
-        } catch (const std::bad_alloc&) {
-          no_memory = true;
-        }
-      });
+    // Small memory is kept for the next call: to get it anew from the system takes as long as to find a thousand pairs.
+    thread_local std::vector<wide::FoundPairs> kept;
+    std::vector<wide::FoundPairs> found = std::exchange(kept, {});
+    found.resize(static_cast<std::size_t>((items + per_chunk - 1) / per_chunk));
+    const auto each_chunk = [&](double begin, double end, const auto& use) {
+      watched_for(
+          options.threads, static_cast<std::int64_t>(found.size()),
+          [&](std::int64_t chunk) { use(chunk, found[static_cast<std::size_t>(chunk)]); }, begin, end);
     };
-    each_chunk([&](std::int64_t chunk, wide::FoundPairs& pairs) {
+    each_chunk(0, wide::kShareOfSearch, [&](std::int64_t chunk, wide::FoundPairs& pairs) {
       for (std::int64_t item = chunk * per_chunk; item < std::min(items, (chunk + 1) * per_chunk); ++item) {
-        if (by_leaves)
+        if (by_leaves) {
           search.find_of_node(item, pairs);
-        else
+        } else {
+          if (item % wide::kSpheresBetweenLooks == 0) stop_chunk_if_cancelled();
           search.find_of_sphere(item, pairs);
+        }
       }
     });
-    if (no_memory) return wide::no_memory();
 
     // Copy them in the order of their first spheres.
     std::vector<std::int64_t> begin(static_cast<std::size_t>(spheres.size()) + 1, 0);
@@ -126,11 +138,11 @@ Result<SpherePairs> sphere_pairs(const WideTree& tree, const SphereSet& spheres,
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
     SpherePairs made;
     const auto total = static_cast<std::size_t>(begin.back());
-    made.first.resize(total);
-    made.second.resize(total);
-    made.distance.resize(total);
+    wide::resize_in_steps(made.first, total, kNothing);
+    wide::resize_in_steps(made.second, total, kNothing);
+    wide::resize_in_steps(made.distance, total, 0.0);
     const double unit = 1 / tree.scale;
-    each_chunk([&](std::int64_t, wide::FoundPairs& pairs) {
+    each_chunk(wide::kShareOfSearch, 1, [&](std::int64_t, wide::FoundPairs& pairs) {
       auto from = pairs.second.begin();
       for (std::size_t k = 0; k < pairs.first.size(); ++k) {
         const std::int64_t id = pairs.first[k];
@@ -142,9 +154,13 @@ Result<SpherePairs> sphere_pairs(const WideTree& tree, const SphereSet& spheres,
           made.distance[to] = (from->distance - radius) * unit;
         }
       }
-      pairs = {};
+      if (total > wide::kMostKeptPairs) pairs = {};
+      pairs.clear();
     });
+    if (total <= wide::kMostKeptPairs) kept = std::move(found);
     return made;
+  } catch (const Cancelled&) {
+    return cancelled_error();
   } catch (const std::bad_alloc&) {
     return wide::no_memory();
   }

@@ -2,6 +2,7 @@
 // never an answer. wide/trace/tuning.h holds the constants within a traversal.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace bihive::wide {
@@ -46,14 +47,33 @@ constexpr std::int64_t kScatteredAtATime = 1 << 20;
 constexpr std::int64_t kLongRun = 4096;
 constexpr std::int64_t kRemainingAtATime = 16384;
 
+// ---- Rays shared among threads (RayOptions of wide/queries.h) ----
+
+/// Rays of a beam's block, of which chunks are multiples.
+constexpr std::int64_t kRaysOfBlock = 64;
+/// The fewest rays of a thread, if the caller states a number of threads and if not: fewer are traced faster
+/// than threads are woken.
+constexpr std::int64_t kFewestOfThread = kRaysOfBlock;
+constexpr std::int64_t kFewestOfOpenThread = 4096;
+constexpr std::int64_t kChunksPerThread = 4;
+/// Rays per chunk: scattered ones are sorted within it, so the more the better; of all hits fewer, whose sorting ends a
+/// chunk.
+constexpr std::int64_t kMostRaysOfChunk = 1 << 19;
+constexpr std::int64_t kMostRaysOfHits = 1 << 17;
+/// Prefetch distance while hits are sorted.
+constexpr std::size_t kHitsAhead = 16;
+/// Hits that are sorted between two looks whether the call is cancelled.
+constexpr std::int64_t kHitsBetweenLooks = 1 << 18;
+
 // ---- Points (wide/point_queries.h): chosen by judgement, no sizes were measured against each other ----
 
 /// Points per task: some milliseconds of work, and few tasks for millions of points.
 constexpr std::int64_t kPointsPerChunk = 1024;
-/// Minimum numbers of points and spheres for sorting points by cell, and points sorted at a time.
+/// Minimum numbers of points and spheres for sorting points by cell, and points sorted at a time: so few that a
+/// cancelled call ends within some hundredths of a second.
 constexpr std::int64_t kFewestPoints = 4096;
 constexpr std::int64_t kFewestSpheresOfPoints = 4096;
-constexpr std::int64_t kPointsAtATime = 1 << 22;
+constexpr std::int64_t kPointsAtATime = 1 << 20;
 /// Mean number of points per cell; the grid has at most 2^bits cells along each side.
 constexpr std::int64_t kPointsPerCell = 16;
 constexpr int kMostPointCellBits = 7;

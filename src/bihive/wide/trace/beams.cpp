@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "bihive/base/watch.h"
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/trace/closest_beam-inl.h"
 #include "bihive/wide/trace/occlusion_beam-inl.h"
@@ -23,6 +24,11 @@ namespace HWY_NAMESPACE {
 
 int block_size(const RaySpan& rays, std::int64_t first) {
   return static_cast<int>(std::min<std::int64_t>(kBeamRays, rays.count - first));
+}
+
+// Every few blocks: is the call cancelled?
+void look_after(std::int64_t first) {
+  if (first % (16 * kBeamRays) == 0) stop_chunk_if_cancelled();
 }
 
 void closest_block(ClosestBeams& call, std::int64_t first, float widest_whole) {
@@ -46,6 +52,7 @@ RemainingRays closest_hits_by_beams_on_target(const WideTree& tree, const RaySpa
   ClosestBeams call(tree, rays, hits);
   const float widest_whole = kWidestWholeInLeaves * leaf_extent(tree);
   for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
+    look_after(first);
     const int count = block_size(rays, first);
     if (!set_up_beam(tree, rays, first, count, call.rays)) {
       remaining.add(first, count);
@@ -62,6 +69,7 @@ RemainingRays closest_hits_by_beams_on_target(const WideTree& tree, const RaySpa
 template <Sought kSought>
 void occluded_block(const WideTree& tree, const RaySpan& rays, std::int64_t first, OcclusionBeam<kSought>& beam,
                     RemainingRays& remaining) {
+  look_after(first);
   const int count = block_size(rays, first);
   if (set_up_beam(tree, rays, first, count, beam.rays)) {
     beam.block(first, remaining);
@@ -85,12 +93,16 @@ RemainingRays occluded_by_beams_on_target(const WideTree& tree, const RaySpan& r
   return remaining;
 }
 
-RemainingRays all_hits_by_beams_on_target(const WideTree& tree, const RaySpan& rays, bool sorted,
-                                          std::vector<RayHit>& found) {
+RemainingRays all_hits_by_beams_on_target(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found) {
   RemainingRays remaining;
-  OcclusionBeam<Sought::all_hits> beam(tree, rays, sorted, {.found = &found});
-  for (std::int64_t first = 0; first < rays.count; first += kBeamRays)
+  OcclusionBeam<Sought::all_hits> beam(tree, rays, false, {.found = &found});
+  for (std::int64_t first = 0; first < rays.count; first += kBeamRays) {
+    if (first == kTrialBlocks * kBeamRays && remaining.count() > first / 3) {
+      remaining.add(first, rays.count - first);
+      break;
+    }
     occluded_block(tree, rays, first, beam, remaining);
+  }
   beam.decide();
   return remaining;
 }
@@ -147,9 +159,9 @@ RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::
   return HWY_DYNAMIC_DISPATCH(occluded_by_beams_on_target)(tree, rays, hidden);
 }
 
-RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, std::vector<RayHit>& found) {
+RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found) {
   ensure_target();
-  return HWY_DYNAMIC_DISPATCH(all_hits_by_beams_on_target)(tree, rays, sorted, found);
+  return HWY_DYNAMIC_DISPATCH(all_hits_by_beams_on_target)(tree, rays, found);
 }
 
 RemainingRays depths_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, const SphereDepths& depths,

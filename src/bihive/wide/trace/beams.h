@@ -22,11 +22,11 @@ bool beams_take(const WideTree& tree, const RaySpan& rays);
 RemainingRays closest_hits_by_beams(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
 RemainingRays occluded_by_beams(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
 
-/// Appends every hit of the rays that it does not return, in no order. sorted: it returns only rays that binary32
-/// cannot hold, and answers others singly where they make no beam.
-RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, std::vector<RayHit>& found);
+/// Appends every hit of the rays that it does not return, in no order.
+RemainingRays all_hits_by_beams(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found);
 
-/// Adds the depths of all hits of the rays that it does not return to their sums. sorted: as above.
+/// Adds the depths of all hits of the rays that it does not return to their sums. sorted: it returns only rays that
+/// binary32 cannot hold, and answers others singly where they make no beam.
 RemainingRays depths_by_beams(const WideTree& tree, const RaySpan& rays, bool sorted, const SphereDepths& depths,
                               const DepthSums& sums);
 

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
 #include "bihive/base/aligned_buffer.h"
 #include "bihive/wide/trace/filter_bounds.h"
@@ -52,7 +51,7 @@ struct ListTile {
 
   // On huge pages, because rays are read in random order.
   static void* operator new(std::size_t bytes) { return allocate_aligned(bytes); }
-  static void operator delete(void* tile) { std::free(tile); }
+  static void operator delete(void* tile) { free_aligned(tile); }
 };
 
 }  // namespace bihive

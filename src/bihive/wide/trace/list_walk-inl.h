@@ -1,6 +1,7 @@
 // A tile of rays traverses the wide tree as lists: at each node every listed ray tests the sixteen boxes, and each
 // child gets the list of the rays that enter it. Children are visited from near to far, for any hit from the far end. A
-// single ray loses time to unpredictable branches; a list needs none.
+// single ray loses time to unpredictable branches; a list needs none. For all hits no ray drops out, and binary64
+// decides every sphere that a ray may meet.
 
 #if defined(BIHIVE_WIDE_TRACE_LIST_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BIHIVE_WIDE_TRACE_LIST_WALK_INL_H_
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "bihive/simd/lanes-inl.h"
 #include "bihive/wide/ray_batch.h"
@@ -34,20 +36,34 @@ namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The traversal of one tile of at most kTileRays rays. With kAnyHit `hidden` is written, else `hits`.
-template <bool kAnyHit>
+/// The answers, of which a call needs one: the nearest hit of each ray; a byte for each ray; all hits, which are
+/// appended in no order.
+struct ListAnswer {
+  HitSpan hits{};
+  std::uint8_t* hidden = nullptr;
+  std::vector<RayHit>* found = nullptr;
+};
+
+enum class ListSought { closest_hit, any_hit, all_hits };
+
+/// The traversal of one tile of at most kTileRays rays.
+template <ListSought kSought>
 class ListWalk {
+  static constexpr bool kClosest = kSought == ListSought::closest_hit;
+  static constexpr bool kAnyHit = kSought == ListSought::any_hit;
+  static constexpr bool kAllHits = kSought == ListSought::all_hits;
+
  public:
   /// tree.node_count > 0.
-  ListWalk(const WideTree& tree, const RaySpan& rays, ListTile& tile, const HitSpan& hits, std::uint8_t* hidden)
-      : tree_(tree), rays_(rays), tile_(tile), hits_(hits), hidden_(hidden), ready_(tree, rays, tile) {}
+  ListWalk(const WideTree& tree, const RaySpan& rays, ListTile& tile, const ListAnswer& answer)
+      : tree_(tree), rays_(rays), tile_(tile), answer_(answer), ready_(tree, rays, tile) {}
 
   void run() {
     for (int octant = 0; octant < 8; ++octant)
       if (ready_.octant_count(octant) > 0) walk_octant(octant);
     test_leaf_entries();
     finish_candidates();
-    if constexpr (!kAnyHit) confirm_winners(tree_, rays_, tile_, ready_.inward_some(), decided_early_, hits_);
+    if constexpr (kClosest) confirm_winners(tree_, rays_, tile_, ready_.inward_some(), decided_early_, answer_.hits);
     decide();
     answer_far_rays();
   }
@@ -143,14 +159,14 @@ class ListWalk {
         const auto s_in = ray.entry(boxes);
         const auto enters = hn::Le(s_in, ray.exit(boxes));
         bits |= mask_bits(enters) << lane;
-        // Any hit needs no distances.
-        if constexpr (kAnyHit) continue;
+        // Only the closest hit needs distances.
+        if constexpr (!kClosest) continue;
         if constexpr (kFloatLanes == kWidth)
           hn::StoreU(compress(s_in, enters), d, memory.s_near + stored);
         else
           hn::Store(s_in, d, memory.s_near + std::size_t{i} * kWidth + lane);
       }
-      if constexpr (!kAnyHit && kFloatLanes == kWidth) {
+      if constexpr (kClosest && kFloatLanes == kWidth) {
         memory.offsets[i] = stored;
         stored += static_cast<std::uint32_t>(__builtin_popcount(bits));
       }
@@ -162,7 +178,7 @@ class ListWalk {
     return any;
   }
 
-  // The rays of the list that enter a child before their best hit, to memory.list.
+  // The rays of the list that enter a child, of the closest hit before their best one, to memory.list.
   std::uint32_t list_child(int slot, const std::uint32_t* list, std::uint32_t count, const NodeMemory& memory) const {
     const WordTag d;
     const hn::Rebind<std::uint16_t, WordTag> half;
@@ -180,8 +196,8 @@ class ListWalk {
       const std::uint32_t place = memory.places[k];
       const std::uint32_t ray = list[place];
       memory.list[kept] = ray;
-      if constexpr (kAnyHit) {
-        kept += tile_.s_best[ray] >= -kFarthestEnd ? 1 : 0;
+      if constexpr (!kClosest) {
+        kept += kAllHits || tile_.s_best[ray] >= -kFarthestEnd ? 1 : 0;
         continue;
       }
       std::size_t at = std::size_t{place} * kWidth + static_cast<std::size_t>(slot);
@@ -206,7 +222,9 @@ class ListWalk {
       ray.left_id = ray.local.outward_id;
       ray.inward = ready_.inward_some() && tile_.inward_id[number] != kNoSphere;
       if (ray.inward) ray.left_id = tile_.inward_id[number];
-      if (ready_.careful_some() && tile_.careful[number] != 0) ray.sure_min = std::numeric_limits<float>::infinity();
+      // Nothing is sure: then each sphere that the ray may meet becomes a pair, and no segment becomes shorter.
+      if (kAllHits || (ready_.careful_some() && tile_.careful[number] != 0))
+        ray.sure_min = std::numeric_limits<float>::infinity();
       ray.winner = kNoSlot;
     };
     const auto finish = [&](std::uint32_t i, const SingleRay& ray) HWY_ATTR {
@@ -233,9 +251,22 @@ class ListWalk {
         look_at_spheres(slot, some, list, count);
         continue;
       }
+      if constexpr (kAllHits) fetch_leaf(slot);
       for (std::uint32_t i = 0; i < count; ++i) tile_.leaf_entries[tile_.leaf_entry_count++] = {list[i], slot, some};
       if (tile_.leaf_entry_count >= kMostLeafEntries - static_cast<int>(kShortLeafList)) test_leaf_entries();
     }
+  }
+
+  // For all hits most leaves are entered by few rays, and their spheres are not in the cache.
+  HWY_INLINE void fetch_leaf(std::uint32_t slot) const {
+    const WideSpheres& spheres = tree_.spheres;
+    for (const float* const column : {spheres.x + slot, spheres.y + slot, spheres.z + slot}) {
+      __builtin_prefetch(column);
+      __builtin_prefetch(column + kWidth - 1);
+    }
+    __builtin_prefetch(spheres.word + slot);
+    __builtin_prefetch(spheres.word + slot + kWidth - 1);
+    if (spheres.r != nullptr) __builtin_prefetch(spheres.r + slot);
   }
 
   void test_leaf_entries() {
@@ -262,8 +293,8 @@ class ListWalk {
       look_at_leaf<false>(leaf, finish);
   }
 
-  // Second test, many candidates at a time: is the root that counts surely in the segment and surely the nearest so
-  // far?
+  // Second test, many candidates at a time: is the root that counts surely in the segment and surely the nearest of
+  // those found? For all hits: may it be in the segment?
   void finish_candidates() {
     CandidateQueue& queue = tile_.queue;
     const FloatTag d;
@@ -272,6 +303,13 @@ class ListWalk {
       const Judged judged = judge_candidates(queue, first, exists);
       std::uint32_t bits = mask_bits(hn::And(exists, judged.keep));
       if (bits == 0) continue;
+      if constexpr (kAllHits) {
+        for (; bits != 0; bits &= bits - 1) {
+          const int k = first + __builtin_ctz(bits);
+          add_pair(queue.ray[k], queue.slot[k]);
+        }
+        continue;
+      }
       const std::uint32_t sure_bits = mask_bits(judged.sure);
       alignas(64) float starts[kFloatLanes];
       hn::Store(judged.start, d, starts);
@@ -338,7 +376,7 @@ class ListWalk {
   }
 
   void hide(std::uint32_t ray) {
-    hidden_[ray] = 1;
+    answer_.hidden[ray] = 1;
     tile_.s_best[ray] = -std::numeric_limits<float>::infinity();
   }
 
@@ -347,10 +385,10 @@ class ListWalk {
   void decide() {
     decided_early_ = decided_early_ || !tile_.undecided.empty();
     decide_pairs(tree_, rays_, tile_.undecided, [&](std::uint32_t ray, double t, std::uint32_t slot) HWY_ATTR {
-      if constexpr (kAnyHit) {
-        hide(ray);
-      } else {
-        keep_nearer(hits_, ray, t, tree_.spheres.id(slot));
+      if constexpr (kAnyHit) hide(ray);
+      if constexpr (kAllHits) answer_.found->push_back({std::int64_t{ray}, t, tree_.spheres.id(slot)});
+      if constexpr (kClosest) {
+        keep_nearer(answer_.hits, ray, t, tree_.spheres.id(slot));
         tile_.s_best[ray] = std::min(tile_.s_best[ray], upper_bound_of(ray, t));
       }
     });
@@ -369,12 +407,17 @@ class ListWalk {
     for (std::uint32_t k = 0; k < ready_.far_count(); ++k) {
       const std::uint32_t i = tile_.far_rays[k];
       const Ray ray = rays_.at(i);
+      if constexpr (kAllHits) {
+        for_hits_of_ray(tree_, ray, [&](double t, std::int64_t id) {
+          answer_.found->push_back({std::int64_t{i}, t, id});
+        });
+        continue;
+      }
       const Hit hit = walk_scalar<kAnyHit>(tree_, ScaledRay(ray, tree_.scale), LeftSphere(tree_, ray.leaves));
-      if constexpr (kAnyHit) {
-        hidden_[i] = hit.found() ? 1 : 0;
-      } else {
-        hits_.t[i] = hit.t;
-        hits_.sphere_id[i] = hit.sphere_id;
+      if constexpr (kAnyHit) answer_.hidden[i] = hit.found() ? 1 : 0;
+      if constexpr (kClosest) {
+        answer_.hits.t[i] = hit.t;
+        answer_.hits.sphere_id[i] = hit.sphere_id;
       }
     }
   }
@@ -382,8 +425,7 @@ class ListWalk {
   const WideTree& tree_;
   const RaySpan& rays_;
   ListTile& tile_;
-  HitSpan hits_;
-  std::uint8_t* hidden_;
+  const ListAnswer answer_;
   const ListRays ready_;
   bool decided_early_ = false;  // some undecided pairs, before the winners are confirmed
   bool negative_[3] = {};

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
+#include "bihive/base/watch.h"
 #include "bihive/simd/dispatch.h"
 #include "bihive/wide/trace/list_tile.h"
 #include "bihive/wide/trace/list_walk-inl.h"
@@ -22,13 +24,18 @@ void walk_closest(const WideTree& tree, const RaySpan& rays, ListTile& tile, con
   std::fill_n(hits.t, rays.count, std::numeric_limits<double>::infinity());
   std::fill_n(hits.sphere_id, rays.count, kNothing);
   if (tree.node_count == 0) return;
-  ListWalk<false>(tree, rays, tile, hits, nullptr).run();
+  ListWalk<ListSought::closest_hit>(tree, rays, tile, {.hits = hits}).run();
 }
 
 void walk_occluded(const WideTree& tree, const RaySpan& rays, ListTile& tile, std::uint8_t* hidden) {
   std::fill_n(hidden, rays.count, std::uint8_t{0});
   if (tree.node_count == 0) return;
-  ListWalk<true>(tree, rays, tile, HitSpan{}, hidden).run();
+  ListWalk<ListSought::any_hit>(tree, rays, tile, {.hidden = hidden}).run();
+}
+
+void walk_all_hits(const WideTree& tree, const RaySpan& rays, ListTile& tile, std::vector<RayHit>& found) {
+  if (tree.node_count == 0) return;
+  ListWalk<ListSought::all_hits>(tree, rays, tile, {.found = &found}).run();
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
@@ -40,6 +47,7 @@ HWY_AFTER_NAMESPACE();
 namespace bihive {
 HWY_EXPORT(walk_closest);
 HWY_EXPORT(walk_occluded);
+HWY_EXPORT(walk_all_hits);
 
 namespace wide {
 namespace {
@@ -52,8 +60,10 @@ ListTile& tile_of_this_thread() {
 // Calls body(first, count) for each tile.
 template <class Body>
 void for_each_tile(std::int64_t rays, const Body& body) {
-  for (std::int64_t first = 0; first < rays; first += kTileRays)
+  for (std::int64_t first = 0; first < rays; first += kTileRays) {
+    stop_chunk_if_cancelled();
     body(first, std::min<std::int64_t>(kTileRays, rays - first));
+  }
 }
 
 }  // namespace
@@ -71,6 +81,16 @@ void occluded_by_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* 
   ListTile& tile = tile_of_this_thread();
   for_each_tile(rays.count, [&](std::int64_t first, std::int64_t count) {
     HWY_DYNAMIC_DISPATCH(walk_occluded)(tree, rays.part(first, count), tile, hidden + first);
+  });
+}
+
+void all_hits_by_lists(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found) {
+  ensure_target();
+  ListTile& tile = tile_of_this_thread();
+  for_each_tile(rays.count, [&](std::int64_t first, std::int64_t count) {
+    const std::size_t known = found.size();
+    HWY_DYNAMIC_DISPATCH(walk_all_hits)(tree, rays.part(first, count), tile, found);
+    for (std::size_t i = known; i < found.size(); ++i) found[i].ray += first;
   });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bihive/wide/ray_batch.h"
 #include "bihive/wide/wide_tree.h"
@@ -10,5 +11,7 @@ namespace bihive::wide {
 
 void closest_hits_by_lists(const WideTree& tree, const RaySpan& rays, const HitSpan& hits);
 void occluded_by_lists(const WideTree& tree, const RaySpan& rays, std::uint8_t* hidden);
+/// Appends every hit of the rays, in no order.
+void all_hits_by_lists(const WideTree& tree, const RaySpan& rays, std::vector<RayHit>& found);
 
 }  // namespace bihive::wide

@@ -76,7 +76,7 @@ class OcclusionBeam {
   static constexpr bool kAllHits = kSought != Sought::any_hit;
 
  public:
-  /// sorted: neighbours may start on any surfaces; for all hits, every ray is answered, singly if necessary.
+  /// sorted: neighbours may start on any surfaces; for depths, every ray is answered, singly if necessary.
   OcclusionBeam(const WideTree& tree, const RaySpan& span, bool sorted, const OcclusionAnswer& answer)
       : tree_(tree), span_(span), answer_(answer), leave_spheres_(span.leaves != nullptr), sorted_(sorted) {
     width_limit_ = (kSought == Sought::depths ? kWidestForDepthsInLeaves : 1.0F) * leaf_extent(tree);

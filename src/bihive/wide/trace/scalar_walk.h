@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "bihive/bih/traversal.h"
 #include "bihive/geometry/hit.h"
+#include "bihive/geometry/ray.h"
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
 #include "bihive/math/interval.h"
@@ -68,6 +70,29 @@ void walk_scalar(const WideTree& tree, ScaledRay ray, const LeftSphere& left, An
   if (tree.is_image) in_tree.origin = ray.origin - tree.shift;
   Test test{tree, ray, left, answer};
   walk_leaves(tree, Slabs(in_tree, tree.is_image ? 0x1p-24 : 0), ray.t_min, ray.t_max, test);
+}
+
+namespace scalar_walk {
+
+template <class Use>
+struct HitsOfRay {
+  const Use& use;
+
+  bool take(double t, std::int64_t id) const {
+    if (t < std::numeric_limits<double>::infinity()) use(t, id);
+    return false;
+  }
+  static double limit() { return std::numeric_limits<double>::infinity(); }
+};
+
+}  // namespace scalar_walk
+
+/// Calls use(t, id) for each hit of any ray, in no order.
+template <class Use>
+void for_hits_of_ray(const WideTree& tree, const Ray& ray, const Use& use) {
+  if (!is_valid(ray)) return;
+  scalar_walk::HitsOfRay<Use> of_ray{use};
+  walk_scalar(tree, ScaledRay(ray, tree.scale), LeftSphere(tree, ray.leaves), of_ray);
 }
 
 /// The same answer as traverse() in bih/traversal.h.

@@ -39,8 +39,9 @@ class GsdFrame {
                    ""};
     spheres_.format = "GSD";
     spheres_.frames = file_.frame_count();
-    for (Status (GsdFrame::*step)() : {&GsdFrame::read_count, &GsdFrame::read_places, &GsdFrame::read_types,
-                                       &GsdFrame::read_radii, &GsdFrame::read_numbers, &GsdFrame::read_cell})
+    for (Status (GsdFrame::*step)() :
+         {&GsdFrame::read_count, &GsdFrame::read_places, &GsdFrame::read_types, &GsdFrame::read_radii,
+          &GsdFrame::read_numbers, &GsdFrame::read_bonds, &GsdFrame::read_cell})
       if (Status status = (this->*step)(); !status) return status.error();
     return std::move(spheres_);
   }
@@ -162,6 +163,34 @@ class GsdFrame {
         spheres_.attributes.numbers.push_back(std::move(column));
       }
     }
+    return Done{};
+  }
+
+  // Two particles each, counted from 0. What a frame does not state is that of frame 0. Bonds that cannot be are told,
+  // and no fault of the particles.
+  Status read_bonds() {
+    if (chunk_.count != 1) return Done{};
+    const Result<std::optional<GsdArray>> count = file_.array(frame_, "bonds/N");
+    if (!count) return count.error();
+    const Result<std::optional<GsdArray>> groups = file_.array(frame_, "bonds/group");
+    if (!groups) return groups.error();
+    const double bonds = *count && (*count)->values.size() == 1 ? (*count)->values[0] : 0;
+    if (bonds == 0) return Done{};
+    bool is_right = *groups && (*groups)->columns == 2 && static_cast<double>((*groups)->rows) == bonds;
+    for (std::size_t i = 0; is_right && i < (*groups)->values.size(); ++i) {
+      const double id = (*groups)->values[i];
+      is_right = id >= 0 && id < static_cast<double>(count_) && id == std::floor(id);
+    }
+    if (!is_right) {
+      spheres_.warnings.push_back("frame " + std::to_string(frame_) +
+                                  " of the GSD file: bonds/group does not name two particles for each of bonds/N, so "
+                                  "its bonds are left out");
+      return Done{};
+    }
+    const std::vector<double>& ids = (*groups)->values;
+    for (std::size_t i = 0; i < ids.size(); i += 2)
+      spheres_.attributes.bonds.add(static_cast<std::int32_t>(ids[i]), static_cast<std::int32_t>(ids[i + 1]));
+    spheres_.attributes.bonds.are_all = true;
     return Done{};
   }
 

@@ -7,6 +7,7 @@
 #include <gemmi/cif.hpp>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "bihive/base/parse_number.h"
@@ -52,6 +53,30 @@ const PlaceTags* best_places(gemmi::cif::Block& block) {
   return best;
 }
 
+BondOrder order_of(const std::string& value, bool is_aromatic) {
+  if (is_aromatic || value.rfind("arom", 0) == 0) return BondOrder::aromatic;
+  if (value.rfind("sing", 0) == 0) return BondOrder::single;
+  if (value.rfind("doub", 0) == 0) return BondOrder::double_bond;
+  return value.rfind("trip", 0) == 0 ? BondOrder::triple : BondOrder::unknown;
+}
+
+// Bonds go by the names of the atoms.
+void take_bonds(gemmi::cif::Block& block, const NamedTexts& names, StatedBonds& bonds) {
+  enum { kOne, kOther, kOrder, kAromatic };
+  std::unordered_map<std::string, std::int32_t> sphere_of;
+  for (std::size_t i = 0; i < names.text_of_sphere.size(); ++i)
+    sphere_of.emplace(names.of(i), static_cast<std::int32_t>(i));
+  gemmi::cif::Table table =
+      block.find("_chem_comp_bond.", {"atom_id_1", "atom_id_2", "?value_order", "?pdbx_aromatic_flag"});
+  for (gemmi::cif::Table::Row row : table) {
+    const auto one = sphere_of.find(row.str(kOne)), other = sphere_of.find(row.str(kOther));
+    if (one == sphere_of.end() || other == sphere_of.end()) continue;
+    const std::string order = row.has2(kOrder) ? lower_case(row.str(kOrder)) : "";
+    bonds.add(one->second, other->second, order_of(order, row.has2(kAromatic) && row.str(kAromatic) == "Y"));
+  }
+  bonds.are_all = !bonds.empty();
+}
+
 Result<RawSpheres> read_monomer(gemmi::cif::Block& block, const PlaceTags& place, const std::string& file) {
   enum { kX, kY, kZ, kSymbol, kAtom, kComponent, kCharge };
   RawSpheres spheres;
@@ -89,7 +114,9 @@ Result<RawSpheres> read_monomer(gemmi::cif::Block& block, const PlaceTags& place
     residues.add(row.has2(kComponent) ? row.str(kComponent) : "");
   }
   if (has_charges) spheres.attributes.numbers.push_back(std::move(charge));
-  spheres.attributes.texts.push_back(printable_texts(names.take("name")));
+  const NamedTexts names_of_atoms = names.take("name");
+  take_bonds(block, names_of_atoms, spheres.attributes.bonds);
+  spheres.attributes.texts.push_back(printable_texts(names_of_atoms));
   spheres.attributes.texts.push_back(printable_texts(residues.take("resname")));
   spheres.rules.push_back("atoms: the monomer " + quote(block.name) + ", " + place.name);
   if (without_place > 0)

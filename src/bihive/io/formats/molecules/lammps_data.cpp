@@ -97,6 +97,7 @@ class LammpsDataReader {
       } else {
         Status (LammpsDataReader::*const read_line)() = section == "Masses"             ? &LammpsDataReader::read_mass
                                                         : section == "Atom Type Labels" ? &LammpsDataReader::read_label
+                                                        : section == "Bonds"            ? &LammpsDataReader::read_bond
                                                                                         : nullptr;
         for (more = scanner_.next_filled_line(); more && !is_heading(); more = scanner_.next_filled_line())
           if (read_line != nullptr)
@@ -106,6 +107,7 @@ class LammpsDataReader {
     if (!read_atoms_) return scanner_.line_error("the file ends without the section 'Atoms'");
     if (Status status = number_labels(); !status) return status.error();
     infer_elements();
+    take_bonds();
     place_cell();
     return std::move(spheres_);
   }
@@ -207,6 +209,43 @@ class LammpsDataReader {
       return scanner_.field_error("the type " + std::to_string(*type) + " is too large");
     type_of_label_[printable(label)] = static_cast<std::int32_t>(*type);
     return Done{};
+  }
+
+  // "id type atom1 atom2", where the type may be a label.
+  Status read_bond() {
+    std::string_view id, type;
+    scanner_.next_field(id);
+    scanner_.next_field(type);
+    const Result<std::int64_t> one = take_count(scanner_, "the id of a bonded atom");
+    if (!one) return one.error();
+    const Result<std::int64_t> other = take_count(scanner_, "the id of a bonded atom");
+    if (!other) return other.error();
+    bonds_.emplace_back(*one, *other);
+    return Done{};
+  }
+
+  // Atoms go by ids, which ascend unless some stands twice.
+  void take_bonds() {
+    const NamedNumbers* const ids = spheres_.attributes.find_numbers("id");
+    if (ids == nullptr || bonds_.empty()) return;
+    if (spheres_.ids == RowIds::repeated) {
+      spheres_.warnings.push_back(scanner_.file() +
+                                  ": its bonds are left out, as ids do not say which atoms they join");
+      return;
+    }
+    std::int64_t lacking = 0;
+    const auto position_of = [&](std::int64_t id) -> std::optional<std::int64_t> {
+      const auto found = std::lower_bound(ids->values.begin(), ids->values.end(), static_cast<double>(id));
+      if (found != ids->values.end() && *found == static_cast<double>(id)) return found - ids->values.begin() + 1;
+      ++lacking;
+      return std::nullopt;
+    };
+    for (const auto& [one, other] : bonds_) add_bond(spheres_, position_of(one), position_of(other));
+    spheres_.attributes.bonds.are_all = !spheres_.attributes.bonds.empty();
+    if (lacking > 0)
+      spheres_.warnings.push_back(scanner_.file() + ": bonds name atoms that are not there, " +
+                                  std::to_string(lacking) + (lacking == 1 ? " time" : " times") +
+                                  "; these bonds are left out");
   }
 
   bool is_type(std::string_view field) const {
@@ -377,6 +416,7 @@ class LammpsDataReader {
   std::set<std::string> seen_;
   std::map<std::string, double> masses_;
   std::map<std::string, std::int32_t> type_of_label_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> bonds_;  // ids
 };
 
 bool is_lammps_data(const FileHead& head) {

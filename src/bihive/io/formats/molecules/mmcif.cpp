@@ -5,7 +5,6 @@
 #include <exception>
 #include <gemmi/cif.hpp>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -17,7 +16,9 @@
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/chem_comp.h"
 #include "bihive/io/formats/molecules/cif.h"
+#include "bihive/io/formats/molecules/cif_connections.h"
 #include "bihive/io/formats/molecules/cif_elements.h"
+#include "bihive/io/formats/molecules/cif_rows.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -91,90 +92,6 @@ std::size_t cell_item_of(std::string_view tag) {
   return static_cast<std::size_t>(std::find(kTags.begin(), kTags.end(), lower_case(tag)) - kTags.begin());
 }
 
-// Takes the two categories that state assemblies.
-class AssemblyTables {
- public:
-  void begin_loop() {
-    fields_.clear();
-    column_ = 0;
-    row_.clear();
-    ours_ = false;
-  }
-  void add_loop_tag(std::string_view tag) {
-    fields_.push_back(field_of(tag));
-    ours_ = ours_ || !fields_.back().empty();
-  }
-  void add_loop_value(std::string_view value) {
-    if (!ours_) return;
-    row_[fields_[column_]] = gemmi::cif::as_string(std::string(value));
-    if (++column_ < fields_.size()) return;
-    column_ = 0;
-    take(row_);
-  }
-  void add_pair_tag(std::string_view tag) { pair_field_ = field_of(tag); }
-  void add_pair_value(std::string_view value) {
-    if (!pair_field_.empty()) pairs_[pair_field_] = gemmi::cif::as_string(std::string(value));
-  }
-  void clear() {
-    pairs_.clear();
-    assemblies_ = {};
-  }
-  Assemblies finish() {
-    take(pairs_);
-    return std::move(assemblies_);
-  }
-
- private:
-  using Fields = std::unordered_map<std::string, std::string>;
-
-  // The tag in lower case if it is one of ours, else nothing.
-  static std::string field_of(std::string_view tag) {
-    const std::string lower = lower_case(tag);
-    const bool ours =
-        lower.rfind("_pdbx_struct_assembly_gen.", 0) == 0 || lower.rfind("_pdbx_struct_oper_list.", 0) == 0;
-    return ours ? lower : "";
-  }
-
-  void take(Fields& row) {
-    const std::string gen = "_pdbx_struct_assembly_gen.";
-    if (const auto id = row.find(gen + "assembly_id"); id != row.end())
-      assemblies_.parts.push_back(
-          {printable(id->second), row[gen + "oper_expression"], list_of(row[gen + "asym_id_list"])});
-    const std::string operators = "_pdbx_struct_oper_list.";
-    if (const auto id = row.find(operators + "id"); id != row.end()) {
-      AssemblyOperator made;
-      made.id = id->second;
-      for (std::size_t i = 0; i < 12; ++i) {
-        const std::string number = std::to_string(i / 4 + 1);
-        const std::string key =
-            i % 4 == 3 ? "vector[" + number + "]" : "matrix[" + number + "][" + std::to_string(i % 4 + 1) + "]";
-        made.rows[i] = parse_double(row[operators + key]).value_or(std::numeric_limits<double>::quiet_NaN());
-      }
-      assemblies_.operators.push_back(made);
-    }
-  }
-
-  // "A,B,C", with blanks or line breaks in between.
-  static std::vector<std::string> list_of(const std::string& text) {
-    std::vector<std::string> items(1);
-    for (const char c : text) {
-      if (c == ',')
-        items.emplace_back();
-      else if (c != ' ' && c != '\n' && c != '\r' && c != '\t')
-        items.back() += c;
-    }
-    for (std::string& item : items) item = printable(item);
-    return items;
-  }
-
-  std::vector<std::string> fields_;  // of the loop; empty texts for all others
-  std::size_t column_ = 0;
-  bool ours_ = false;
-  Fields row_, pairs_;
-  std::string pair_field_;
-  Assemblies assemblies_;
-};
-
 // Takes the values of _atom_site in the order in which the grammar meets them.
 class AtomSites {
  public:
@@ -186,7 +103,7 @@ class AtomSites {
     pair_row_ = {};
     pair_tags_.clear();
     done_ = done_ || atoms_ > 0;
-    if (!done_) assemblies_.clear();
+    if (!done_) tables_.clear();
     if (!done_) {
       cell_ = {};
       states_cell_ = false;
@@ -201,10 +118,10 @@ class AtomSites {
     loop_tags_.clear();
     cell_items_.clear();
     is_cell_ = false;
-    assemblies_.begin_loop();
+    tables_.begin_loop();
   }
   void add_loop_tag(const Value& tag) {
-    assemblies_.add_loop_tag(tag.text);
+    tables_.add_loop_tag(tag.text);
     note_category(tag.text);
     columns_.push_back(item_of(tag.text));
     cell_items_.push_back(cell_item_of(tag.text));
@@ -213,7 +130,7 @@ class AtomSites {
     refuse_duplicate(tag, loop_tags_);
   }
   void add_loop_value(const Value& value) {
-    if (!done_) assemblies_.add_loop_value(value.text);
+    if (!done_) tables_.add_loop_value(value.text);
     if (is_cell_) take_cell_of_loop(value);
     if (!ours_) return;
     const int item = columns_[column_];
@@ -234,11 +151,11 @@ class AtomSites {
     note_category(tag.text);
     pair_item_ = item_of(tag.text);
     cell_item_ = cell_item_of(tag.text);
-    assemblies_.add_pair_tag(tag.text);
+    tables_.add_pair_tag(tag.text);
     if (pair_item_ != kItems) refuse_duplicate(tag, pair_tags_);
   }
   void add_pair_value(const Value& value) {
-    if (!done_) assemblies_.add_pair_value(value.text);
+    if (!done_) tables_.add_pair_value(value.text);
     put_cell_item(cell_item_, value);
     if (pair_item_ != kItems) pair_row_[static_cast<std::size_t>(pair_item_)] = value;
   }
@@ -255,9 +172,10 @@ class AtomSites {
                                   " no place ('?'), so the file's other atoms are shown");
     spheres_.rules.push_back("atoms: ATOM and HETATM of model " + std::to_string(frame_) + " (from 0)");
     columns_of_atoms_.take(spheres_.attributes);
-    spheres_.assemblies = assemblies_.finish();
+    spheres_.assemblies = assemblies_from(tables_.rows());
     if (!spheres_.assemblies.parts.empty())
       spheres_.attributes.texts.push_back(printable_texts(label_chains_.take(std::string(kAssemblyChains))));
+    add_connections(tables_.rows(), marks_, spheres_);
     alternates_.remove_from(spheres_);
     return std::move(spheres_);
   }
@@ -355,7 +273,9 @@ class AtomSites {
 
     // A residue is named by its chain and number with insertion code: the author's, else the label's.
     const std::string_view mark = row[kAlternate].unquoted();
-    if (row[kAlternate].missing() || mark.empty()) return;
+    const bool has_mark = !row[kAlternate].missing() && !mark.empty();
+    marks_ += has_mark ? mark.front() : char{0};
+    if (!has_mark) return;
     const auto text = [&row](Item author, Item label) { return chosen(row, author, label).unquoted(); };
     const std::string residue = std::string(text(kAuthChain, kLabelChain)) + ' ' +
                                 std::string(text(kAuthSequence, kLabelSequence)) + ' ' +
@@ -407,7 +327,8 @@ class AtomSites {
   AtomColumns columns_of_atoms_;
   Alternates alternates_;
   TextCollector label_chains_;
-  AssemblyTables assemblies_;
+  std::string marks_;  // of alternate locations; 0: none
+  CifRows tables_;
 };
 
 // The actions for the rules of the grammar.

@@ -33,6 +33,13 @@ std::optional<int> element_of_mol2_type(std::string_view type) {
   return number > 0 ? std::optional<int>(number) : std::nullopt;
 }
 
+BondOrder order_of_mol2_type(std::string_view type) {
+  if (type == "1" || type == "am") return BondOrder::single;
+  if (type == "2") return BondOrder::double_bond;
+  if (type == "3") return BondOrder::triple;
+  return type == "ar" ? BondOrder::aromatic : BondOrder::unknown;
+}
+
 class Mol2Reader {
  public:
   Mol2Reader(std::string_view text, const std::string& file, std::int64_t wanted)
@@ -145,16 +152,18 @@ class Mol2Reader {
     return Done{};
   }
 
-  // "id origin target type", until a line that is none. A bond to an atom that is not there counts as none.
+  // "id origin target type", until a line that is none. A bond to an atom that is not there counts as none, and so does
+  // one of the type nc, "not connected".
   void read_bonds() {
     for (;;) {
       TextScanner ahead(scanner_);
       if (!ahead.next_filled_line() || trim(ahead.line())[0] == '@') return;
       scanner_.next_filled_line();
-      std::string_view id, origin, target;
+      std::string_view id, origin, target, type;
       if (trim(scanner_.line())[0] == '#') continue;
       if (!scanner_.next_field(id) || !scanner_.next_field(origin) || !scanner_.next_field(target)) continue;
-      add_bond(spheres_, parse_int(origin), parse_int(target));
+      scanner_.next_field(type);
+      if (type != "nc") add_bond(spheres_, parse_int(origin), parse_int(target), order_of_mol2_type(type));
     }
   }
 
@@ -179,6 +188,7 @@ class Mol2Reader {
     elements_.take(spheres_, scanner_.file());
     SphereAttributes& attributes = spheres_.attributes;
     attributes.element.resize(spheres_.size());
+    attributes.bonds.are_all = !attributes.bonds.empty();
     std::vector<std::optional<int>> element_of_label;
     for (const std::string& type : types_.texts()) element_of_label.push_back(element_of_mol2_type(type));
     for (std::size_t i = 0; i < spheres_.size(); ++i) {
@@ -193,7 +203,7 @@ class Mol2Reader {
     attributes.texts.push_back(printable_texts(names_.take("name")));
     attributes.texts.push_back(printable_texts(residues_.take("resname")));
     attributes.texts.push_back(printable_texts(types_.take("type")));
-    spheres_.rules.push_back("elements: by the types, else by names; bonds are read to unwrap alone");
+    spheres_.rules.push_back("elements: by the types, else by names");
   }
 
   TextScanner scanner_;

@@ -212,7 +212,6 @@ class PdbReader {
     spheres_.assemblies = assemblies_.take();
     alternates_.remove_from(spheres_);
     bonds_.take(spheres_);
-    spheres_.bonds_are_some = true;
     if (!cell_warning_.empty()) spheres_.warnings.push_back(scanner_.file() + ": " + cell_warning_);
     if (shifted_ > 0)
       spheres_.warnings.push_back(scanner_.file() + ":" + std::to_string(first_shifted_line_) + ": " +

@@ -44,7 +44,7 @@ std::vector<std::int64_t> serials_of(std::string_view line) {
 void PdbBonds::add_line(std::string_view line) {
   const std::vector<std::int64_t> serials = serials_of(line);
   for (std::size_t i = 1; i < serials.size(); ++i)
-    if (serials[i] != serials[0]) pairs_.push_back(std::minmax(serials[0], serials[i]));
+    if (serials[i] != serials[0]) pairs_.emplace_back(serials[0], serials[i]);
 }
 
 void PdbBonds::take(RawSpheres& spheres) {
@@ -63,10 +63,17 @@ void PdbBonds::take(RawSpheres& spheres) {
     return known == positions.end() ? std::int64_t{0} : known->second;
   };
 
-  // Records state a bond from both ends, and a double bond twice.
+  // Records state a bond from both ends, and programs a double bond twice.
   std::sort(pairs_.begin(), pairs_.end());
-  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-  for (const auto& [one, other] : pairs_) add_bond(spheres, position_of(one), position_of(other));
+  for (std::size_t i = 0; i < pairs_.size();) {
+    std::size_t end = i;
+    while (end < pairs_.size() && pairs_[end] == pairs_[i]) ++end;
+    const BondOrder order = end - i == 2   ? BondOrder::double_bond
+                            : end - i == 3 ? BondOrder::triple
+                                           : BondOrder::unknown;
+    add_bond(spheres, position_of(pairs_[i].first), position_of(pairs_[i].second), order);
+    i = end;
+  }
   pairs_.clear();
 }
 

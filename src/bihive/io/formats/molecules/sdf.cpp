@@ -99,9 +99,20 @@ class SdfReader {
     for (std::int64_t i = 0; i < *bonds; ++i) {
       if (!scanner_.next_line()) return cut(std::to_string(*bonds) + " bonds");
       const std::string_view bond = scanner_.line();
-      if (wanted) add_bond(spheres_, parse_int(columns_of_line(bond, 0, 3)), parse_int(columns_of_line(bond, 3, 3)));
+      if (!wanted) continue;
+      add_stated_bond(parse_int(columns_of_line(bond, 0, 3)), parse_int(columns_of_line(bond, 3, 3)),
+                      parse_int(columns_of_line(bond, 6, 3)));
     }
     return read_properties(wanted);
+  }
+
+  // Types from 5 on are those of queries, 9 is a coordination, and 10 a hydrogen bond, which is none here.
+  void add_stated_bond(std::optional<std::int64_t> one, std::optional<std::int64_t> other,
+                       std::optional<std::int64_t> type) {
+    constexpr BondOrder kOrders[] = {BondOrder::unknown, BondOrder::single, BondOrder::double_bond, BondOrder::triple,
+                                     BondOrder::aromatic};
+    const std::int64_t stated = type.value_or(0);
+    if (stated != 10) add_bond(spheres_, one, other, kOrders[stated >= 0 && stated <= 4 ? stated : 0]);
   }
 
   // x, y and z in ten columns each, a symbol of three, then codes for isotope and charge.
@@ -211,9 +222,10 @@ class SdfReader {
 
   // "M  V30 index type atom1 atom2 ...", with positions in place of the atoms' indices, as in files of version 2000.
   void read_v3000_bond() {
-    skip_fields(4);
-    std::string_view one, other;
-    if (scanner_.next_field(one) && scanner_.next_field(other)) add_bond(spheres_, parse_int(one), parse_int(other));
+    skip_fields(3);
+    std::string_view type, one, other;
+    if (scanner_.next_field(type) && scanner_.next_field(one) && scanner_.next_field(other))
+      add_stated_bond(parse_int(one), parse_int(other), parse_int(type));
   }
 
   void skip_fields(int count) {
@@ -241,13 +253,14 @@ class SdfReader {
 
   void finish() {
     SphereAttributes& attributes = spheres_.attributes;
+    attributes.bonds.are_all = !attributes.bonds.empty();
     if (std::all_of(attributes.element.begin(), attributes.element.end(), [](auto number) { return number == 0; }))
       attributes.element.clear();
     attributes.texts.push_back(printable_texts(symbols_.take("symbol")));
     const auto is_charged = [](double charge) { return charge != 0; };
     if (std::any_of(charge_.values.begin(), charge_.values.end(), is_charged))
       attributes.numbers.push_back(std::move(charge_));
-    spheres_.rules.push_back("elements: the symbols of the atoms; bonds are read to unwrap alone");
+    spheres_.rules.push_back("elements: the symbols of the atoms");
   }
 
   TextScanner scanner_;

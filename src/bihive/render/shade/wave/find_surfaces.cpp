@@ -103,10 +103,11 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
     if (passes_apart && is_passed_straight(material)) material.transmissive = 0;
   const SphereAttributes& attributes = drawn.spheres.attributes();
   has_effects = bihive::has_effects(drawn);
+  has_sticks = !drawn.sticks.empty();
   const auto spawns = [](const Material& material) { return material.reflective > 0 || material.transmissive > 0; };
   spawns_rays =
       std::any_of(materials.begin(), materials.end(), spawns) || (drawn.plane && spawns(drawn.plane->material));
-  has_attributes = !attributes.colour.empty() || !attributes.opacity.empty();
+  has_attributes = !attributes.colour.empty() || !attributes.opacity.empty() || drawn.sticks.has_colours();
   if (!drawn.plane) return;
   plane = local_plane(drawn);
   shadows_only = drawn.plane->shadows_only;

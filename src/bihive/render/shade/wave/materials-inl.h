@@ -25,6 +25,26 @@ struct MaterialLanes {
   Lanes opacity = hn::Set(Tag(), 1);  ///< the factor of the other lanes that a sphere's own opacity scales
 };
 
+/// The colours that sticks have of their own.
+inline HWY_NOINLINE void colour_sticks(const Scene& scene, Longs id, Lanes3& colour) {
+  const Tag d;
+  alignas(64) std::int64_t ids[kLanes];
+  alignas(64) double x[kLanes], y[kLanes], z[kLanes];
+  hn::Store(id, LongTag(), ids);
+  hn::Store(colour.x, d, x);
+  hn::Store(colour.y, d, y);
+  hn::Store(colour.z, d, z);
+  for (int k = 0; k < kLanes; ++k) {
+    const std::int64_t half = ids[k] - scene.spheres.total_size();
+    const Vec3f* const own = half < 0 ? nullptr : scene.sticks.colour_at(half);
+    if (own == nullptr) continue;
+    x[k] = double(own->x);
+    y[k] = double(own->y);
+    z[k] = double(own->z);
+  }
+  colour = {hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)};
+}
+
 /// Opacity and colour of single spheres, if the scene has any.
 HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes& lanes) {
   const SphereAttributes& attributes = scene.scene->spheres.attributes();
@@ -34,6 +54,7 @@ HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes
   alignas(64) double channel[3][kLanes] = {}, opacity_of[kLanes] = {};
   for (int k = 0; k < kLanes; ++k) {
     if (ids[k] < 0) continue;
+    if (HWY_UNLIKELY(scene.has_sticks)) ids[k] = shown_sphere(*scene.scene, ids[k]);
     const auto i = static_cast<std::size_t>(scene.scene->spheres.stored_id(ids[k]));
     if (!attributes.colour.empty()) {
       const Vec3f colour = scene.image_colours.any() ? scene.image_colours.colour(ids[k]) : attributes.colour[i];
@@ -48,6 +69,8 @@ HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes
     const Lanes3 colour{hn::Load(d, channel[0]), hn::Load(d, channel[1]), hn::Load(d, channel[2])};
     lanes.colour = choose(on_sphere, colour, lanes.colour);
   }
+  if (HWY_UNLIKELY(scene.has_sticks) && scene.scene->sticks.has_colours())
+    colour_sticks(*scene.scene, id, lanes.colour);
   if (attributes.opacity.empty()) return;
   const Lanes opacity = hn::Load(Tag(), opacity_of);
   const LaneMask clear = hn::And(on_sphere, hn::Lt(opacity, all(1)));

@@ -77,10 +77,10 @@ struct SurfaceLanes {
   Longs id, material_inside;
 };
 
-// Puts the normals of caps in the places of those that the whole spheres have there. Few hits are on cut spheres, so
-// one after the other will do.
-inline HWY_NOINLINE void put_cap_normals(const CutSet& cuts, const Wave& wave, std::int64_t i, LaneMask on_sphere,
-                                         Longs ids, Lanes3& outward) {
+// Replaces normals of spheres, outward ones, where `normal_of(k, id, normal)` has another one for lane k: those of caps
+// and sticks. Few hits need it, so one after the other will do.
+template <class NormalOf>
+HWY_NOINLINE void replace_normals(LaneMask on_sphere, Longs ids, Lanes3& outward, const NormalOf& normal_of) {
   alignas(64) std::int64_t id[kLanes];
   alignas(64) double x[kLanes], y[kLanes], z[kLanes];
   hn::Store(ids, LongTag(), id);
@@ -92,12 +92,40 @@ inline HWY_NOINLINE void put_cap_normals(const CutSet& cuts, const Wave& wave, s
   for (unsigned left = bits[0]; left != 0; left &= left - 1) {
     const int k = __builtin_ctz(left);
     Vec3d normal;
-    if (!cuts.is_cut(id[k]) || !cuts.cap_normal(wave.span().at(i + k), id[k], normal)) continue;
+    if (!normal_of(k, id[k], normal)) continue;
     x[k] = normal.x;
     y[k] = normal.y;
     z[k] = normal.z;
   }
   outward = {hn::Load(Tag(), x), hn::Load(Tag(), y), hn::Load(Tag(), z)};
+}
+
+inline void put_cap_normals(const CutSet& cuts, const Wave& wave, std::int64_t i, LaneMask on_sphere, Longs ids,
+                            Lanes3& outward) {
+  replace_normals(on_sphere, ids, outward, [&](int k, std::int64_t id, Vec3d& normal) {
+    return cuts.is_cut(id) && cuts.cap_normal(wave.span().at(i + k), id, normal);
+  });
+}
+
+inline void put_stick_normals(const Scene& scene, const Wave& wave, std::int64_t i, LaneMask on_sphere,
+                              const RayLanes& rays, Lanes3& outward) {
+  alignas(64) double t[kLanes];
+  hn::Store(rays.t, Tag(), t);
+  replace_normals(on_sphere, rays.id, outward, [&](int k, std::int64_t id, Vec3d& normal) {
+    if (id < scene.spheres.total_size()) return false;
+    normal = stick_normal(scene, wave.span().at(i + k), {t[k], id});
+    return true;
+  });
+}
+
+// Replaces the ids of sticks' halves by those of the spheres at their ends. True: there are some.
+inline HWY_NOINLINE bool show_spheres_of_sticks(const Scene& scene, std::int64_t ids[kLanes]) {
+  bool any = false;
+  for (int k = 0; k < kLanes; ++k) {
+    any = any || ids[k] >= scene.spheres.total_size();
+    ids[k] = shown_sphere(scene, ids[k]);
+  }
+  return any;
 }
 
 // Local centres. Makes the ids those of the stored spheres.
@@ -135,6 +163,7 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
     alignas(64) std::int64_t sphere[kLanes];
     hn::Store(hn::IfThenElseZero(longs_of(on_sphere), rays.id), w, sphere);
     const SphereSet& spheres = scene.spheres;
+    const bool on_stick = HWY_UNLIKELY(wave_scene.has_sticks) && show_spheres_of_sticks(scene, sphere);
     Lanes3 centre;
     if (HWY_UNLIKELY(spheres.has_images())) {
       centre = centres_of_images(spheres, sphere);
@@ -144,6 +173,7 @@ HWY_INLINE SurfaceLanes surfaces_at(const WaveScene& wave_scene, LaneMask found,
       centre = multiply(all(wave_scene.inverse_scale), stored);
     }
     outward = normalized(add(subtract(rays.origin, centre), along));
+    if (HWY_UNLIKELY(on_stick)) put_stick_normals(scene, wave, i, on_sphere, rays, outward);
     if (HWY_UNLIKELY(wave_scene.cuts != nullptr))
       put_cap_normals(*wave_scene.cuts, wave, i, on_sphere, rays.id, outward);
     if (!scene.material_of_sphere.empty()) material = gathered(scene.material_of_sphere.data(), sphere);

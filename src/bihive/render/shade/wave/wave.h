@@ -31,8 +31,9 @@ struct WaveScene {
   std::vector<Material>
       materials;                ///< the scene's; then, if there is a plane, the plane's of even, odd and far squares
   bool spawns_rays = false;     ///< some material reflects or refracts
-  bool has_attributes = false;  ///< some sphere has its own colour or opacity
-  bool has_effects = false;     ///< some material has bands, a tint or a glow
+  bool has_attributes = false;  ///< some sphere or stick has its own colour or opacity
+  bool has_sticks = false;
+  bool has_effects = false;  ///< some material has bands, a tint or a glow
   /// What is passed straight sends no ray on: OpacityRule::once. Such materials have a transmissive share of 0 here.
   bool passes_apart = false;
   double faintest_ray = 0;             ///< rays with less weight are not sent on: kFaintestRay with OpacityRule::once

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bihive/geometry/plane.h"
+#include "bihive/settings/opacity_rule.h"
 
 namespace bihive {
 namespace {
@@ -195,7 +196,7 @@ void WaveIntegrator::put_layers_together(const WavePart& rays, const CrossingBuf
       };
       if (ray.next < found.first[k + 1]) {
         const RayHit& crossing = found.crossings[ray.next++];
-        add(crossing.t, crossing.sphere_id);
+        if (ray.weight >= kFaintestRay) add(crossing.t, crossing.sphere_id);
         ray.weight = ray.weight * to_eye()->passing(crossing.sphere_id);
         ray.tint = ray.tint * to_eye()->tint(crossing.sphere_id);
         left[kept++] = ray;

@@ -1,0 +1,127 @@
+// bih: the reference bounding interval hierarchy of the thesis, traversed as bih/traversal.h defines it.
+
+#include <algorithm>
+#include <utility>
+
+#include "bihive/bih/child_boxes.h"
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/statistics.h"
+#include "bihive/compare/boxes.h"
+#include "bihive/compare/by_ray.h"
+#include "bihive/compare/sphere_limit.h"
+
+namespace bihive::workbench {
+namespace {
+
+// Counts the steps that the traversal reports.
+template <class Counter>
+struct Observer {
+  Counter& counter;
+
+  void node_visit() { counter.node(); }
+  void leaf_visit() { counter.node(); }
+  void empty_gap() {}
+  void sphere_test() {}  // test() counts it
+};
+
+class ReferenceBih final : public ByRay<ReferenceBih> {
+ public:
+  explicit ReferenceBih(const SphereSet& spheres) : ByRay(spheres), tree_(build_reference_tree(spheres, {})) {}
+
+  StructureFacts facts() const override {
+    const TreeStatistics statistics = tree_statistics(tree_);
+    StructureFacts facts;
+    facts.bytes = tree_.allocated_bytes();
+    facts.nodes = static_cast<std::int64_t>(tree_.nodes.size());
+    facts.leaves = statistics.leaves;
+    facts.references = statistics.spheres;
+    facts.depth = spheres().empty() ? 0 : statistics.depth.max;
+    // Add up the nodes' boxes, as the planes above cut them.
+    const double whole = half_surface(tree_.aabb);
+    if (!(whole > 0)) return facts;
+    facts.expected_nodes = facts.expected_spheres = 0;
+    std::vector<std::pair<std::int64_t, Aabb>> pending{{0, tree_.aabb}};
+    while (!pending.empty()) {
+      const auto [position, box] = pending.back();
+      pending.pop_back();
+      const Node& node = tree_.nodes[static_cast<std::size_t>(position)];
+      const double share = half_surface(box) / whole;
+      facts.expected_nodes += share;
+      facts.expected_spheres += share * static_cast<double>(node.is_leaf() ? node.sphere_count : 0);
+      if (node.is_leaf()) continue;
+      const ChildBoxes boxes = child_boxes(node, box);
+      pending.emplace_back(node.first, boxes.first);
+      if (node.kind == NodeKind::split) pending.emplace_back(node.right_child(), boxes.second);
+    }
+    return facts;
+  }
+
+  template <class Answer, class Counter>
+  void trace(const ScaledRay& ray, Answer& answer, Counter& counter) const {
+    // The answer tests each sphere, so that it is counted.
+    struct Tests {
+      const ReferenceBih& self;
+      const ScaledRay& ray;
+      Answer& answer;
+      Counter& counter;
+
+      bool test(std::int64_t id) const { return self.test(ray, id, answer, counter); }
+      double limit() const { return answer.limit(); }
+    };
+    Tests tests{*this, ray, answer, counter};
+    Observer<Counter> observer{counter};
+    counter.box_test();
+    walk(tree_, spheres(), ray, tests, observer);
+  }
+
+  template <class Counter>
+  void search(Vec3d point, NearestSphere& nearest, Counter& counter) const {
+    // Planes bound boxes that are rounded to nearest (docs/precision.md, "Padding").
+    const double pad = rounding_pad(point) + 0x1p-24;
+    struct Waiting {
+      std::int64_t node;
+      Aabb box;
+      double least;
+    };
+    std::vector<Waiting> waiting;
+    waiting.reserve(64);
+    counter.box_test();
+    waiting.push_back({0, tree_.aabb, least_distance(point, tree_.aabb, pad)});
+    while (!waiting.empty()) {
+      const Waiting at = waiting.back();
+      waiting.pop_back();
+      if (at.least > nearest.limit()) continue;
+      const Node& node = tree_.nodes[static_cast<std::size_t>(at.node)];
+      counter.node();
+      if (node.is_leaf()) {
+        for (std::int64_t i = node.first_sphere(); i < node.first_sphere() + node.sphere_count; ++i)
+          test(point, tree_.sphere_ids[static_cast<std::size_t>(i)], nearest, counter);
+        continue;
+      }
+      const ChildBoxes boxes = child_boxes(node, at.box);
+      const auto wait = [&](std::int64_t child, const Aabb& box) {
+        counter.box_test();
+        if (!box.empty()) waiting.push_back({child, box, least_distance(point, box, pad)});
+      };
+      wait(node.first, boxes.first);
+      if (node.kind != NodeKind::split) continue;
+      wait(node.right_child(), boxes.second);
+      // The nearer child comes last, and so is taken first.
+      const std::size_t last = waiting.size() - 1;
+      if (last > 0 && waiting[last].node == node.right_child() && waiting[last - 1].node == node.first &&
+          waiting[last].least > waiting[last - 1].least)
+        std::swap(waiting[last], waiting[last - 1]);
+    }
+  }
+
+ private:
+  Tree tree_;
+};
+
+}  // namespace
+
+Result<StructurePointer> build_bih(const SphereSet& spheres, int) {
+  return build_or_error(spheres, "bih", [&]() -> StructurePointer { return std::make_unique<ReferenceBih>(spheres); });
+}
+
+}  // namespace bihive::workbench

@@ -1,0 +1,86 @@
+// A structure over a set of spheres: it answers rays and points with the bits of brute force, and counts its steps.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bihive/base/result.h"
+#include "bihive/geometry/hit.h"
+#include "bihive/geometry/ray.h"
+#include "bihive/geometry/sphere_set.h"
+#include "bihive/math/vec3.h"
+#include "bihive/wide/queries.h"
+#include "bihive/wide/ray_batch.h"
+
+namespace bihive::workbench {
+
+/// Steps of one query.
+struct Work {
+  std::int64_t nodes = 0;         ///< nodes entered, leaves included; of a grid: cells
+  std::int64_t box_tests = 0;     ///< boxes compared with the ray or point; planes alone do not count
+  std::int64_t sphere_tests = 0;  ///< a sphere in several leaves may be tested several times
+
+  /// The surface area heuristic with one unit for a node and one for a sphere.
+  double cost() const { return static_cast<double>(nodes + sphere_tests); }
+};
+
+/// Properties of a built structure, independent of queries.
+struct StructureFacts {
+  std::int64_t bytes = 0;       ///< of the structure alone; the set has 16 more per sphere
+  std::int64_t nodes = 0;       ///< leaves included
+  std::int64_t leaves = 0;      ///< of a grid: cells with spheres
+  std::int64_t references = 0;  ///< spheres of all leaves, each as often as it is listed
+  std::int64_t depth = 0;       ///< levels, the root's included; 0 without spheres
+  /// Nodes entered and spheres tested along a random line through the structure's box that does not end at a hit: the
+  /// probability that it meets a box inside is proportional to that box's surface. NaN where the box has no surface.
+  double expected_nodes = std::numeric_limits<double>::quiet_NaN();
+  double expected_spheres = std::numeric_limits<double>::quiet_NaN();
+
+  double expected_cost() const { return expected_nodes + expected_spheres; }
+};
+
+/// Immutable once built; any number of threads may ask it. It refers to the set, which must outlive it. An invalid ray
+/// (geometry/ray.h) hits nothing.
+class Structure {
+ public:
+  Structure() = default;
+  Structure(const Structure&) = delete;
+  Structure& operator=(const Structure&) = delete;
+  virtual ~Structure() = default;
+
+  virtual StructureFacts facts() const = 0;
+
+  /// Closest hit of each ray, and whether there is any (1 or 0).
+  virtual void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const = 0;
+  virtual void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const = 0;
+  /// The sphere whose surface is nearest to each point (geometry/sphere_distance.h), as wide/point_queries.h defines
+  /// it: `t` gets the distance in world units. Points are x, y, z in world units, one after the other, and finite.
+  virtual void nearest_spheres(const double* points, std::int64_t count, const HitSpan& found) const = 0;
+
+  /// Steps of one ray or point. The wide tree's are those of a scalar traversal: its vectors take rays together.
+  virtual Work work_of_ray(const Ray& ray, bool any_hit) const = 0;
+  virtual Work work_of_point(Vec3d point) const = 0;
+
+  /// How many rays to pass in a call, so that calls of slow structures end soon.
+  virtual std::int64_t rays_per_call() const { return 1024; }
+};
+
+using StructurePointer = std::unique_ptr<const Structure>;
+
+/// One structure that users can name.
+struct StructureRow {
+  const char* name;
+  const char* title;  ///< a phrase for tables
+  /// `threads`: for builders that use them; 0: all. Errors: more spheres than it numbers, or not enough memory.
+  Result<StructurePointer> (*build)(const SphereSet& spheres, int threads);
+};
+
+/// All of them, in the order of reports.
+const std::vector<StructureRow>& structures();
+/// The row of this name. Error: there is none; the message lists all.
+Result<StructureRow> structure_named(const std::string& name);
+
+}  // namespace bihive::workbench

@@ -1,0 +1,144 @@
+// wide: the wide BIH, sixteen children per node, answered by vectors (wide/queries.h).
+
+#include <algorithm>
+
+#include "bihive/compare/boxes.h"
+#include "bihive/compare/by_ray.h"
+#include "bihive/wide/point_queries.h"
+#include "bihive/wide/wide_builder.h"
+#include "bihive/wide/wide_statistics.h"
+
+namespace bihive::workbench {
+namespace {
+
+// The work of a scalar traversal of the same tree, one query at a time. Its spheres are those of the tree: of equal
+// ones in one place, the tree may have only the first.
+class WideWork final : public ByRay<WideWork> {
+ public:
+  WideWork(const SphereSet& spheres, const WideTree& tree) : ByRay(spheres), tree_(tree) {}
+  StructureFacts facts() const override { return {}; }
+
+  template <class Answer, class Counter>
+  void trace(const ScaledRay& ray, Answer& answer, Counter& counter) const {
+    const RayAndBoxes boxes(ray);
+    const auto entry = [&](const Aabb& box) {
+      const Interval part = boxes.inside(box);
+      return part.empty() ? kNever : part.t_near;
+    };
+    traverse(
+        entry, [&] { return answer.limit(); }, [&](std::int64_t id) { return test(ray, id, answer, counter); },
+        counter);
+  }
+  template <class Counter>
+  void search(Vec3d point, NearestSphere& nearest, Counter& counter) const {
+    const double pad = rounding_pad(point);
+    traverse([&](const Aabb& box) { return least_distance(point, box, pad); }, [&] { return nearest.limit(); },
+             [&](std::int64_t id) {
+               test(point, id, nearest, counter);
+               return false;
+             },
+             counter);
+  }
+
+ private:
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+  const WideTree& tree_;
+
+  template <class Entry, class Limit, class Visit, class Counter>
+  void traverse(const Entry& entry, const Limit& limit, const Visit& visit, Counter& counter) const {
+    struct Child {
+      const WideNode* node;  // null: a leaf
+      std::int64_t begin, count;
+      double entry;
+    };
+    if (tree_.node_count == 0) return;
+    counter.box_test();
+    const double whole = entry(tree_.aabb);
+    if (whole == kNever) return;
+    std::vector<Child> waiting{{tree_.nodes, 0, 0, whole}};
+    while (!waiting.empty()) {
+      const Child at = waiting.back();
+      waiting.pop_back();
+      if (at.entry > limit()) continue;
+      counter.node();
+      if (at.node == nullptr) {
+        for (std::int64_t slot = at.begin; slot < at.begin + at.count; ++slot)
+          if (visit(tree_.spheres.id(slot))) return;
+        continue;
+      }
+      // All children that are met wait, the first one on top.
+      const std::size_t first = waiting.size();
+      for (int slot = 0; slot < at.node->child_count; ++slot) {
+        Aabb box;
+        for (int axis = 0; axis < 3; ++axis)
+          box.lo[axis] = at.node->lo[axis][slot], box.hi[axis] = at.node->hi[axis][slot];
+        counter.box_test();
+        const double where = entry(box);
+        if (where == kNever) continue;
+        if (at.node->is_leaf(slot))
+          waiting.push_back({nullptr, at.node->sphere_begin(slot), at.node->sphere_count(slot), where});
+        else
+          waiting.push_back({tree_.nodes + at.node->child_node(slot), 0, 0, where});
+      }
+      std::stable_sort(waiting.begin() + static_cast<std::ptrdiff_t>(first), waiting.end(),
+                       [](const Child& a, const Child& b) { return a.entry > b.entry; });
+    }
+  }
+};
+
+class WideBih final : public Structure {
+ public:
+  WideBih(const SphereSet& spheres, std::shared_ptr<const WideTree> tree)
+      : tree_(std::move(tree)), work_(spheres, *tree_) {}
+
+  StructureFacts facts() const override {
+    const WideStatistics statistics = wide_statistics(*tree_);
+    StructureFacts facts;
+    facts.bytes = statistics.used_bytes;
+    facts.nodes = statistics.nodes + statistics.leaves;
+    facts.leaves = statistics.leaves;
+    facts.references = tree_->placed;
+    facts.depth = tree_->node_count == 0 ? 0 : tree_->levels + 1;
+    if (!(half_surface(tree_->aabb) > 0)) return facts;
+    facts.expected_nodes = statistics.expected_nodes + statistics.expected_leaves;
+    facts.expected_spheres = statistics.expected_spheres;
+    return facts;
+  }
+
+  void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override {
+    bihive::closest_hits(*tree_, rays, order, hits);
+  }
+  void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const override {
+    bihive::occluded(*tree_, rays, order, is_occluded);
+  }
+  void nearest_spheres(const double* points, std::int64_t count, const HitSpan& found) const override {
+    PointOptions options;
+    options.threads = 1;
+    // Bad points and a lack of memory are left: the points are finite, and the answers small.
+    const auto nearest = bihive::nearest_spheres(*tree_, PointSpan::rows(points, count), 1,
+                                                 std::numeric_limits<double>::infinity(), options);
+    if (!nearest) throw std::bad_alloc();
+    std::copy(nearest->distance.begin(), nearest->distance.end(), found.t);
+    std::copy(nearest->sphere_id.begin(), nearest->sphere_id.end(), found.sphere_id);
+  }
+
+  Work work_of_ray(const Ray& ray, bool any_hit) const override { return work_.work_of_ray(ray, any_hit); }
+  Work work_of_point(Vec3d point) const override { return work_.work_of_point(point); }
+  // The more the better: it sorts scattered rays.
+  std::int64_t rays_per_call() const override { return 1 << 18; }
+
+ private:
+  std::shared_ptr<const WideTree> tree_;
+  WideWork work_;
+};
+
+}  // namespace
+
+Result<StructurePointer> build_wide(const SphereSet& spheres, int threads) {
+  WideBuilder builder;
+  Result<std::shared_ptr<const WideTree>> tree = builder.build(spheres, {}, threads);
+  if (!tree) return tree.error();
+  return StructurePointer(std::make_unique<WideBih>(spheres, std::move(*tree)));
+}
+
+}  // namespace bihive::workbench

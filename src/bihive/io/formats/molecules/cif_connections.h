@@ -1,0 +1,17 @@
+// The bonds of mmCIF files: _struct_conn, which names those that residues do not have of themselves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bihive/io/formats/molecules/cif_rows.h"
+#include "bihive/io/raw_spheres.h"
+
+namespace bihive {
+
+/// Adds the bonds of the rows of _struct_conn whose type is covalent, a disulfide or a metal coordination. `marks`: the
+/// alternate location of each sphere, 0: none. An end is the sphere of that chain, residue, name and mark; a bond to
+/// none, to several, or to a symmetry mate counts as none.
+void add_connections(const std::vector<CifRow>& rows, const std::string& marks, RawSpheres& spheres);
+
+}  // namespace bihive

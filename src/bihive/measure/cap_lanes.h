@@ -1,0 +1,54 @@
+// Searches among the caps of one sphere, in lanes of binary64.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "bihive/math/vec3.h"
+
+namespace bihive::measure {
+
+/// Of a unit sphere: all its points x with x.axis > c, by components. s is the sine of the angular radius.
+struct CapNumbers {
+  Vec3d axis;
+  double c, s;
+};
+
+/// Circles of caps cross where d > 0. Each term is rounded once, so lanes and single numbers have the same bits.
+struct CirclePair {
+  double g, d;  ///< g: cosine between the axes
+
+  static CirclePair of(const CapNumbers& p, const CapNumbers& q) {
+    const double g = dot(p.axis, q.axis), t = g - p.c * q.c, product = p.s * q.s;
+    return {g, product * product - t * t};
+  }
+};
+
+/// Caps in arrays, each padded with caps of no point, which cross none.
+class CapArrays {
+ public:
+  /// No caps, and room for `count`.
+  void clear(std::size_t count);
+  void push(const CapNumbers& cap);
+  /// Makes cap `index` one without points.
+  void erase(int index);
+  int size() const { return size_; }
+  const double* operator[](std::size_t k) const { return numbers_[k].data(); }  ///< x, y, z, c, s
+
+ private:
+  int size_ = 0;
+  std::array<std::vector<double>, 5> numbers_;
+};
+
+/// The first cap from `from` on of which it is not sure that it has no point in common with `cap` or that their circles
+/// cross. `doubt`: the least |d| that is sure. The number of caps if there is none.
+int first_unclear(const CapArrays& caps, int from, const CapNumbers& cap, double doubt);
+
+/// The first cap from `from` on whose circle surely crosses that of `cap`.
+int first_crossing(const CapArrays& caps, int from, const CapNumbers& cap, double doubt);
+
+/// The first cap from `from` on in which a or b lies, or may lie: x.axis - c is at least -doubt.
+int first_holding(const CapArrays& caps, int from, Vec3d a, Vec3d b, double doubt);
+
+}  // namespace bihive::measure

@@ -1,0 +1,188 @@
+// Sticks (geometry/stick_set.h) beside the spheres between which they are.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bihive/bih/reference_builder.h"
+#include "bihive/bih/traversal.h"
+#include "bihive/geometry/cut_sphere.h"
+#include "bihive/geometry/stick_set.h"
+#include "bihive/render/query/image_ranges.h"
+#include "bihive/render/query/ray_engine.h"
+
+namespace bihive {
+
+/// A decorator: adds sticks to an engine of the spheres. They have a tree of their own, which every engine traverses by
+/// the scalar traversal, up to where the ray meets a sphere; for the copies of a replicated set, one after the other.
+class StickEngine final : public RayEngine {
+ public:
+  /// Spheres and sticks must outlive it. `cuts`: what clips leave of them; null: all. std::bad_alloc: there is not
+  /// enough memory. Within a WatchedWork it may throw Cancelled.
+  StickEngine(const SphereSet& spheres, const StickSet& sticks, std::shared_ptr<const RayEngine> of_spheres,
+              std::shared_ptr<const CutSet> cuts = nullptr)
+      : spheres_(spheres), sticks_(sticks), engine_of_spheres_(std::move(of_spheres)), cuts_(std::move(cuts)) {
+    constexpr std::int64_t kSticksOfLeaf = 2;  // a test of a stick costs more than that of a box
+    std::vector<Aabb> boxes;
+    boxes.reserve(static_cast<std::size_t>(sticks.size()));
+    for (std::int64_t stick = 0; stick < sticks.size(); ++stick) boxes.push_back(sticks.stored_box(spheres, stick));
+    tree_ = build_reference_tree(boxes, {kSticksOfLeaf, kUnlimited});
+  }
+
+  Hit closest_hit(const Ray& ray) const override {
+    Nearest nearest{*this, false, engine_of_spheres_->closest_hit(of_spheres(ray))};
+    traverse_sticks(ray, nearest);
+    return nearest.best;
+  }
+  bool occluded(const Ray& ray) const override {
+    return engine_of_spheres_->occluded(of_spheres(ray)) || meets_stick(ray);
+  }
+  void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override {
+    engine_of_spheres_->closest_hits(of_spheres(rays), order, hits);
+    for (std::int64_t i = 0; i < rays.count; ++i) {
+      Nearest nearest{*this, false, {hits.t[i], hits.sphere_id[i]}};
+      traverse_sticks(rays.at(i), nearest);
+      hits.t[i] = nearest.best.t;
+      hits.sphere_id[i] = nearest.best.sphere_id;
+    }
+  }
+  void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const override {
+    engine_of_spheres_->occluded(of_spheres(rays), order, is_occluded);
+    for (std::int64_t i = 0; i < rays.count; ++i)
+      if (is_occluded[i] == 0 && meets_stick(rays.at(i))) is_occluded[i] = 1;
+  }
+  void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const override {
+    engine_of_spheres_->all_hits(of_spheres(rays), order, found);
+    for (std::int64_t i = 0; i < rays.count; ++i) {
+      All all{*this, {i, found}};
+      traverse_sticks(rays.at(i), all);
+    }
+    sort_hits(found);
+  }
+
+ private:
+  // The hits of a ray on sticks: the closest one or any, or all of them.
+  struct Nearest {
+    const StickEngine& engine;
+    bool any;
+    Hit best;
+    StickRay ray{ScaledRay({}, 1)};
+    CutRay cut{ScaledRay({}, 1)};  // if there are cuts
+
+    bool test(std::int64_t stick) {
+      const StickHit hit = engine.hit(ray, cut, stick);
+      best.keep_nearer(hit.t, engine.id_of(stick, hit));
+      return any && best.found();
+    }
+    double limit() const { return best.t; }
+  };
+  struct All {
+    const StickEngine& engine;
+    AllHits all;
+    StickRay ray{ScaledRay({}, 1)};
+    CutRay cut{ScaledRay({}, 1)};
+
+    bool test(std::int64_t stick) const {
+      const StickHit hit = engine.hit(ray, cut, stick);
+      return all.take(hit.t, engine.id_of(stick, hit));
+    }
+    static double limit() { return AllHits::limit(); }
+  };
+
+  StickHit hit(const StickRay& ray, const CutRay& cut, std::int64_t stick) const {
+    const Remainder left = cuts_ == nullptr ? Remainder::whole : cuts_->remainder_of_stick(stick);
+    if (left == Remainder::whole) return stick_hit(ray, sticks_.stored(spheres_, stick));
+    if (left == Remainder::nothing) return {};
+    const CutStickHit found = cuts_->stick_hit(cut, ray, stick);
+    return {found.hit.t, found.s};
+  }
+  std::int64_t id_of(std::int64_t stick, const StickHit& hit) const {
+    return spheres_.total_size() + half_of(stick, hit);
+  }
+
+  // The sticks of one copy of the set.
+  template <class Answer>
+  struct AnswerOfImage {
+    Answer& answer;
+    std::int64_t first;  // stick
+    bool ended = false;
+
+    bool test(std::int64_t stick) {
+      ended = answer.test(first + stick);
+      return ended;
+    }
+    double limit() const { return answer.limit(); }
+  };
+  template <class Answer>
+  struct EachImage {
+    const StickEngine& engine;
+    Answer& answer;
+
+    double limit() const { return answer.limit(); }
+    bool visit(const ImageRange& image) {
+      const SphereSet& spheres = engine.spheres_;
+      AnswerOfImage<Answer> of_image{answer, spheres.images().number(image.first) * engine.sticks_.size()};
+      ScaledRay in_tree = answer.ray.ray;
+      in_tree.origin = in_tree.origin - spheres.scale() * spheres.images().shift(image.first);
+      NoObserver observer;
+      walk(engine.tree_, spheres, in_tree, of_image, observer, kPadOfSticks + kPadOfCopies);
+      return of_image.ended;
+    }
+  };
+
+  template <class Answer>
+  void traverse_sticks(const Ray& ray, Answer& answer) const {
+    if (!is_valid(ray) || sticks_.empty()) return;
+    if (cuts_ != nullptr) {
+      cuts_->enter(ray, cuts_->cutting_sticks(), answer.cut);
+      answer.ray = cuts_->stick_ray_of(ray, answer.cut);
+    } else {
+      answer.ray = stick_ray(ray, spheres_, sticks_);
+    }
+    if (!spheres_.has_images()) {
+      NoObserver observer;
+      walk(tree_, spheres_, answer.ray.ray, answer, observer, kPadOfSticks);
+      return;
+    }
+    EachImage<Answer> each{*this, answer};
+    const ImageBox box{to_double(tree_.aabb.lo), to_double(tree_.aabb.hi)};
+    visit_image_boxes(spheres_.images(), spheres_.scale(), box, answer.ray.ray, each);
+  }
+  bool meets_stick(const Ray& ray) const {
+    Nearest nearest{*this, true, {}};
+    traverse_sticks(ray, nearest);
+    return nearest.best.found();
+  }
+
+  // The engine of the spheres knows the caps of cut sticks.
+  std::int64_t left_of_spheres(std::int64_t leaves, bool inside) const {
+    return cuts_ != nullptr && cuts_->is_cut(leaves) ? leaves : left_sphere(spheres_, sticks_, leaves, inside);
+  }
+  Ray of_spheres(const Ray& ray) const {
+    Ray made = ray;
+    made.leaves = left_of_spheres(ray.leaves, ray.inside);
+    return made;
+  }
+  // The returned span borrows memory of this thread until its next call.
+  RaySpan of_spheres(const RaySpan& rays) const {
+    if (rays.leaves == nullptr) return rays;
+    static thread_local std::vector<std::int64_t> leaves;
+    leaves.resize(static_cast<std::size_t>(rays.count));
+    for (std::int64_t i = 0; i < rays.count; ++i)
+      leaves[static_cast<std::size_t>(i)] =
+          left_of_spheres(rays.leaves[i], rays.inside != nullptr && rays.inside[i] != 0);
+    RaySpan made = rays;
+    made.leaves = leaves.data();
+    return made;
+  }
+
+  const SphereSet& spheres_;
+  const StickSet& sticks_;
+  std::shared_ptr<const RayEngine> engine_of_spheres_;
+  std::shared_ptr<const CutSet> cuts_;
+  Tree tree_;  // of the sticks' boxes
+};
+
+}  // namespace bihive

@@ -1,0 +1,144 @@
+#include "bihive/scene/arrows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bihive/base/setting_name.h"
+#include "bihive/scene/look_text.h"
+#include "bihive/select/number_term.h"
+#include "bihive/select/selection.h"
+
+namespace bihive {
+namespace {
+
+using Components = std::array<FoundAttribute, 3>;
+
+Error error_of(const char* setting, const Error& error) {
+  const std::string place = error.column > 0 ? "column " + std::to_string(error.column) + ": " : "";
+  return {setting_name(setting) + ": " + place + error.message, "", 0, 0, error.hint};
+}
+
+Result<Components> components_of(const SphereSet& spheres, const std::string& text) {
+  Components found;
+  std::string_view rest = text;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view name = rest.substr(0, comma);
+    if (name.empty() || (comma == std::string_view::npos) != (axis == 2))
+      return Error{setting_name("arrows") + ": expected three attributes VX,VY,VZ, found \"" + text + "\"", "", 0, 0,
+                   suggestion("", attribute_names(spheres))};
+    Result<FoundAttribute> one = find_numbers(spheres, name);
+    if (!one) return error_of("arrows", one.error());
+    if (!one->has_numbers())
+      return Error{setting_name("arrows") + ": \"" + std::string(name) + "\" holds texts, and a vector needs numbers",
+                   "", 0, 0, ""};
+    found[axis] = std::move(*one);
+    if (comma != std::string_view::npos) rest.remove_prefix(comma + 1);
+  }
+  return found;
+}
+
+// Colours of all spheres' arrows; empty: those of the spheres. `how`: by an attribute.
+Result<std::vector<Vec3f>> colours_of(const Scene& scene, const std::string& text,
+                                      const std::vector<std::uint8_t>& mask, std::optional<ColourBy>& how) {
+  if (text.empty()) return std::vector<Vec3f>();
+  const SphereSet& spheres = scene.spheres;
+  std::vector<Vec3f> colours(mask.size());
+  if (const Result<ColourChoice> choice = colour_choice_from_text(text); choice) {
+    if (find_attribute(spheres, text).found())
+      return Error{setting_name("arrow_colour") + ": \"" + text + "\" is a colour and an attribute", "", 0, 0,
+                   "write the colour as #rrggbb, or a map after the attribute: " + text + ":viridis"};
+    const Result<Vec3f> colour = linear_colour(*choice, scene.picture.transfer);
+    if (!colour) return error_of("arrow_colour", colour.error());
+    std::fill(colours.begin(), colours.end(), *colour);
+    return colours;
+  }
+  const Result<ColourBy> asked_for = colour_by_from_text(text);
+  if (!asked_for) return error_of("arrow_colour", asked_for.error());
+  if (const Result<FoundAttribute> found = find_numbers(spheres, asked_for->attribute); !found)
+    return error_of("arrow_colour", {"no colour, and " + found.error().message, "", 0, 0, found.error().hint});
+  Result<ColourBy> done = colour_by(spheres, *asked_for, mask, scene.picture.transfer, colours, scene.element_colours);
+  if (!done) return error_of("arrow_colour", done.error());
+  how = std::move(*done);
+  return colours;
+}
+
+// `shaft`: its radius.
+void add_arrow(Vec3d tail, Vec3d vector, double shaft, OwnStick like, std::vector<OwnStick>& sticks) {
+  const double long_head = kArrowHeadLength * shaft, extent = length(vector);
+  const Vec3d tip = tail + vector;
+  const double head = std::min(long_head, extent);
+  const Vec3d neck = head < extent ? tip - (head / extent) * vector : tail;
+  if (head < extent) {
+    like.a = tail;
+    like.b = neck;
+    like.radius_a = like.radius_b = shaft;
+    sticks.push_back(like);
+  }
+  like.a = neck;
+  like.b = tip;
+  like.radius_a = kArrowHeadRadius * shaft * (head / long_head);
+  like.radius_b = 0;
+  sticks.push_back(like);
+}
+
+}  // namespace
+
+Result<AddedArrows> add_arrows(Scene& scene, const Arrows& arrows) {
+  SphereSet& spheres = scene.spheres;
+  const Result<Components> components = components_of(spheres, arrows.components);
+  if (!components) return components.error();
+  std::vector<std::uint8_t> mask(static_cast<std::size_t>(spheres.size()), 1);
+  if (!arrows.select.empty()) {
+    Result<std::vector<std::uint8_t>> selected = select_spheres(spheres, arrows.select);
+    if (!selected) return error_of("arrow_select", selected.error());
+    mask = std::move(*selected);
+  }
+  std::optional<ColourBy> how;
+  const Result<std::vector<Vec3f>> colours = colours_of(scene, arrows.colour, mask, how);
+  if (!colours) return colours.error();
+
+  AddedArrows added;
+  std::vector<OwnStick> sticks;
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    const auto i = static_cast<std::size_t>(id);
+    if (mask[i] == 0) continue;
+    Vec3d vector;
+    for (int axis = 0; axis < 3; ++axis)
+      vector[axis] = arrows.scale * (*components)[static_cast<std::size_t>(axis)].number_of(spheres, id);
+    const double extent = length(vector);
+    if (!std::isfinite(extent)) ++added.unknown;
+    if (!std::isfinite(extent) || extent == 0) continue;
+    const double of_sphere = spheres.radius(id);
+    if (std::isinf(arrows.radius) && of_sphere == 0)
+      return Error{setting_name("arrows") + ": sphere " + std::to_string(input_id(scene, id)) +
+                       " has radius 0, and the shaft of an arrow is a quarter of its sphere's radius",
+                   "", 0, 0, "state the radius of all shafts: " + setting_name("arrow_radius") + " R"};
+    OwnStick like;
+    like.sphere = static_cast<std::int32_t>(id);
+    if (!colours->empty()) like.colour = (*colours)[i];
+    const Vec3d centre = spheres.local_centre(id);
+    const bool by_tail = arrows.pivot == ArrowPivot::tail;
+    add_arrow(by_tail ? centre : centre - 0.5 * vector, vector,
+              std::isinf(arrows.radius) ? 0.25 * of_sphere : arrows.radius, like, sticks);
+    ++added.count;
+    if ((by_tail ? extent : 0.5 * extent) <= of_sphere) ++added.inside;
+    if (extent > added.longest) {
+      added.longest = extent;
+      added.radius_of_longest = of_sphere;
+    }
+  }
+  if (Status status = scene.sticks.add(spheres, sticks); !status) return error_of("arrows", status.error());
+  if (Status status = check_sticks(scene); !status) return status.error();
+  if (added.count > 0) scene.arrows_coloured_by = std::move(how);
+  return added;
+}
+
+}  // namespace bihive

@@ -1,0 +1,177 @@
+#include "bihive/scene/bonds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <new>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "bihive/base/memory.h"
+#include "bihive/base/setting_name.h"
+#include "bihive/base/watch.h"
+#include "bihive/geometry/lattice.h"
+#include "bihive/io/elements.h"
+#include "bihive/scene/looks.h"
+#include "bihive/scene/near_pairs.h"
+
+namespace bihive {
+namespace {
+
+constexpr std::uint8_t kHydrogen = 1;
+
+bool knows_elements(const SphereSet& spheres) {
+  const std::vector<std::uint8_t>& element = spheres.attributes().element;
+  return std::any_of(element.begin(), element.end(), [](std::uint8_t one) { return one != 0; });
+}
+
+Status check_elements(const SphereSet& spheres) {
+  if (knows_elements(spheres)) return Done{};
+  return Error{"bonds are found between atoms of known elements, and these spheres have none", "", 0, 0, ""};
+}
+
+bool is_before(const ImagePair& a, const ImagePair& b) {
+  return std::tie(a.pair, a.image) < std::tie(b.pair, b.image);
+}
+
+// From one position to the nearest image of another.
+ImageCounts nearest_image(Vec3d from, Vec3d to, const Lattice& lattice) {
+  const Vec3d apart = to - from;
+  ImageCounts best{};
+  double least = dot(apart, apart);
+  // Any shift moves a point by at least the distance between planes of the lattice.
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k)
+    if (lattice.share_of_length(k) > 0) narrowest = std::min(narrowest, 1 / lattice.share_of_length(k));
+  if (4.004 * least <= narrowest * narrowest || !lattice.holds(from) || !lattice.holds(to)) return best;
+
+  // Begin with an image that is surely near.
+  const Vec3d share = lattice.shares(apart);
+  for (int k = 0; k < 3; ++k)
+    best[static_cast<std::size_t>(k)] = -static_cast<std::int64_t>(std::floor(share[k] + 0.5));
+  const Vec3d begun = apart + lattice.shift(best);
+  if (dot(begun, begun) < least)
+    least = dot(begun, begun);
+  else
+    best = {};
+  const Vec3d place = lattice.shares(to);
+  const double largest = std::max(largest_coordinate(from), largest_coordinate(to));
+  any_image(lattice.images_within(std::sqrt(least), from, place, place, largest), [&](const ImageCounts& by) {
+    const Vec3d other = apart + lattice.shift(by);
+    if (dot(other, other) < least) {
+      least = dot(other, other);
+      best = by;
+    }
+    return false;
+  });
+  return best;
+}
+
+// Throws as near_pairs().
+Result<std::vector<ImagePair>> find_by_distance(const SphereSet& spheres, double reach, int threads) {
+  const std::vector<std::uint8_t>& element = spheres.attributes().element;
+  std::vector<Vec3d> atoms;
+  std::vector<double> radii;
+  atoms.reserve(element.size());
+  radii.reserve(element.size());
+  for (std::int64_t id = 0; id < spheres.size(); ++id) {
+    atoms.push_back(spheres.local_centre(id));
+    radii.push_back(reach * covalent_radius(element[static_cast<std::size_t>(id)]));
+  }
+  const Result<std::vector<NearPair>> found = near_pairs(atoms, radii, Lattice::of(spheres.cell()), threads);
+  if (!found) return found.error();
+  const std::vector<NearPair>& near = *found;
+
+  // Find the nearest one of each hydrogen atom.
+  std::vector<std::int64_t> nearest(atoms.size(), -1);
+  const auto is_hydrogen = [&](std::int32_t id) { return element[static_cast<std::size_t>(id)] == kHydrogen; };
+  for (std::size_t k = 0; k < near.size(); ++k)
+    for (const std::int32_t id : near[k].points) {
+      if (!is_hydrogen(id)) continue;
+      std::int64_t& best = nearest[static_cast<std::size_t>(id)];
+      if (best < 0 || near[k].distance_squared < near[static_cast<std::size_t>(best)].distance_squared)
+        best = static_cast<std::int64_t>(k);
+    }
+
+  std::vector<ImagePair> bonds;
+  bonds.reserve(near.size());
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const auto keeps = [&](std::int32_t id) {
+      return !is_hydrogen(id) || nearest[static_cast<std::size_t>(id)] == static_cast<std::int64_t>(k);
+    };
+    if (keeps(near[k].points[0]) && keeps(near[k].points[1])) bonds.push_back({near[k].points, near[k].image});
+  }
+  return bonds;
+}
+
+}  // namespace
+
+Result<std::vector<ImagePair>> bonds_by_distance(const SphereSet& spheres, double reach, int threads) {
+  if (Status status = check_elements(spheres); !status) return status.error();
+  if (spheres.size() > std::numeric_limits<std::int32_t>::max())
+    return Error{"bonds are found between at most 2^31 atoms", "", 0, 0, ""};
+  WatchedWork work;
+  try {
+    return find_by_distance(spheres, reach, threads);
+  } catch (const Cancelled&) {
+    return cancelled_error();
+  } catch (const std::bad_alloc&) {
+    return no_memory_for("the bonds");
+  }
+}
+
+std::vector<ImagePair> bonds_of_file(const SphereSet& spheres) {
+  const std::optional<Lattice> lattice = Lattice::of(spheres.cell());
+  std::vector<ImagePair> bonds;
+  bonds.reserve(spheres.attributes().bonds.list.size());
+  for (const StatedBond& bond : spheres.attributes().bonds.list) {
+    bonds.push_back({{bond.one, bond.other}, {}});
+    if (lattice)
+      bonds.back().image = nearest_image(spheres.local_centre(bond.one), spheres.local_centre(bond.other), *lattice);
+  }
+  return bonds;
+}
+
+Result<std::vector<ImagePair>> automatic_bonds(const SphereSet& spheres, double reach, int threads) {
+  std::vector<ImagePair> stated = bonds_of_file(spheres);
+  if (spheres.attributes().bonds.are_all) return stated;
+  Result<std::vector<ImagePair>> found = bonds_by_distance(spheres, reach, threads);
+  if (!found) return found;
+  std::vector<ImagePair> both;
+  both.reserve(stated.size() + found->size());
+  std::set_union(found->begin(), found->end(), stated.begin(), stated.end(), std::back_inserter(both), is_before);
+  return both;
+}
+
+Status scale_balls(Scene& scene, const Sticks& sticks) {
+  const bool needs_elements = sticks.bonds == Bonds::distance ||
+                              (sticks.bonds == Bonds::automatic && !scene.spheres.attributes().bonds.are_all);
+  if (needs_elements)
+    if (Status status = check_elements(scene.spheres); !status) return status;
+  if (sticks.ball_scale == 1) return Done{};
+  LookAction action = ScaleRadius{sticks.ball_scale};
+  if (sticks.ball_scale == 0)
+    action = SetRadii{std::vector<double>(static_cast<std::size_t>(scene.spheres.size()), sticks.radius)};
+  const Result<std::vector<std::int64_t>> scaled = apply_looks(scene, {Look{"all", {std::move(action)}}});
+  return scaled ? Status(Done{}) : Status(scaled.error());
+}
+
+Status find_bonds(Scene& scene, const Sticks& sticks, int threads) {
+  Result<std::vector<ImagePair>> bonds = sticks.bonds == Bonds::file ? bonds_of_file(scene.spheres)
+                                         : sticks.bonds == Bonds::automatic
+                                             ? automatic_bonds(scene.spheres, sticks.reach, threads)
+                                             : bonds_by_distance(scene.spheres, sticks.reach, threads);
+  if (!bonds) return bonds.error();
+  if (sticks.bonds == Bonds::file && bonds->empty())
+    return Error{"the file states no bonds between these spheres", "", 0, 0,
+                 setting_name("bonds") + " distance finds them"};
+  Result<StickSet> made = StickSet::between(scene.spheres, *bonds, sticks.radius);
+  if (!made) return made.error();
+  scene.sticks = std::move(*made);
+  return check_sticks(scene);
+}
+
+}  // namespace bihive

@@ -1,0 +1,121 @@
+// Films, and what goes out of the page besides pictures.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { and_settle, close_card, link_state, state_of_address, no_complaints, open_own, open_page, scratch, set_value, small, with_page } from './page_kit.mjs';
+
+const kit = with_page();
+
+async function film(page) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#film_save')]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+// Elements of Matroska by their ids, those inside of others too.
+function elements(bytes, from = 0, to = bytes.length) {
+  const containers = new Set([0x18538067, 0x1549a966, 0x1654ae6b, 0xae, 0xe0, 0x1f43b675, 0x1a45dfa3]);
+  const found = [];
+  for (let at = from; at < to; ) {
+    const id_length = Math.clz32(bytes[at]) - 23;
+    const id = bytes.readUIntBE(at, id_length);
+    at += id_length;
+    assert.equal(bytes[at], 1, 'sizes have eight bytes');
+    const size = bytes.readUIntBE(at + 2, 6);
+    at += 8;
+    assert.ok(at + size <= to, 'inside the one around it');
+    if (containers.has(id)) found.push(...elements(bytes, at, at + size));
+    else found.push({ id, content: bytes.subarray(at, at + size) });
+    at += size;
+  }
+  return found;
+}
+const of_id = (all, id) => all.filter((one) => one.id === id).map(({ content }) => content);
+const block_times = (all) => {
+  let cluster = 0;
+  return all.flatMap(({ id, content }) => {
+    if (id === 0xe7) cluster = content.readUIntBE(0, content.length);
+    return id === 0xa3 ? [{ time: cluster + content.readInt16BE(1), is_key: (content[3] & 0x80) !== 0 }] : [];
+  });
+};
+
+test('a film turns once around, and leaves camera and history alone', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
+  const before = (await link_state(page)).settings.camera;
+  await page.fill('#save_width', '97');
+  await page.fill('#save_height', '64');
+  await page.fill('#film_seconds', '1.5');
+  await page.fill('#film_speed', '20');
+  assert.ok(await page.locator('#film_kind [value=frames]').isDisabled(), 'one frame is no film');
+  const { name, bytes } = await film(page);
+  assert.equal(name, 'demo.webm');
+  const all = elements(bytes);
+  assert.deepEqual([of_id(all, 0xb0)[0].readUInt8(0), of_id(all, 0xba)[0].readUInt8(0)], [96, 64], 'even numbers of pixels');
+  assert.equal(of_id(all, 0x4489)[0].readDoubleBE(0), 1500, 'milliseconds');
+  assert.match(of_id(all, 0x86)[0].toString(), /^V_VP[89]$/);
+  const blocks = block_times(all);
+  assert.deepEqual(blocks.map(({ time }) => time), Array.from({ length: 30 }, (_, i) => 50 * i));
+  assert.ok(blocks[0].is_key && blocks[25].is_key);
+  writeFileSync(join(scratch, name), bytes);
+  await page.waitForSelector('#picture[data-settled=true]');
+  assert.deepEqual((await link_state(page)).settings.camera, before);
+  assert.ok(await page.isHidden('#busy'));
+
+  // Cancelled at once.
+  await page.fill('#film_seconds', '60');
+  await page.click('#film_save');
+  await page.click('#film_cancel');
+  await page.waitForFunction(() => document.getElementById('messages').textContent.includes('cancelled'));
+  await page.waitForSelector('#picture[data-settled=true]');
+  assert.deepEqual((await link_state(page)).settings.camera, before);
+  assert.ok(await page.isVisible('#film_save'));
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a film of a file has all of its frames, and shows the one before again', async () => {
+  const file = join(scratch, 'steps.xyz');
+  const frame = (i) => `2\nframe ${i}\nC 0 0 0\nO ${2 + i} 0 0\n`;
+  writeFileSync(file, [0, 1, 2, 3].map(frame).join(''));
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  await open_own(page, file, '4 frames');
+  await and_settle(page, () => set_value(page, '#player_frame', 2));
+  await page.waitForSelector('#player[data-frame="2"]');
+  await page.fill('#save_width', '64');
+  await page.fill('#save_height', '48');
+  await page.selectOption('#film_kind', 'frames');
+  assert.ok(await page.isHidden('#film_seconds_row'));
+  const { name, bytes } = await film(page);
+  assert.equal(name, 'steps.webm');
+  assert.deepEqual(block_times(elements(bytes)).map(({ time }) => time), [0, 40, 80, 120]);
+  await page.waitForSelector('#player[data-frame="2"]');
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a wide window has the program’s camera, and so has a tall one', async () => {
+  for (const [width, height] of [[1000, 300], [340, 900], [500, 400]]) {
+    const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width, height } });
+    const seen = await page.$eval('#picture', ({ clientWidth, clientHeight }) => [clientWidth, clientHeight]);
+    const report = JSON.parse(execFileSync(process.env.BIHIVE, ['render', 'demo', '-o', join(scratch, 'wide.png'), '--size', seen.join('x'), '--samples', '1', '--json'], { encoding: 'utf8' }));
+    // Without the card, which would take a part of a small window.
+    await page.evaluate(() => document.getElementById('copy_link').click());
+    const { camera } = (await state_of_address(page)).settings;
+    for (const member of ['eye', 'look_at', 'fov_deg']) assert.deepEqual(camera[member], report.settings.camera[member], `${member} at ${seen}`);
+    no_complaints(complaints);
+    await context.close();
+  }
+});
+
+test('code for a page of one’s own shows the page that is saved beside it', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { permissions: ['clipboard-read', 'clipboard-write'] });
+  await page.click('#copy_embed');
+  await page.waitForFunction(() => document.getElementById('messages').textContent.includes('demo.html'));
+  const code = await page.evaluate(() => navigator.clipboard.readText());
+  assert.match(code, /^<iframe src="demo\.html\?embed=" title="demo · bihive"/);
+  await close_card(page);
+  no_complaints(complaints);
+  await context.close();
+});
