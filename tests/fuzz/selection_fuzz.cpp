@@ -1,13 +1,15 @@
 // The language of selections on any text: a mask of the set's size, or an error at a place of the text.
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "bihive/io/read_spheres.h"
 #include "bihive/select/selection.h"
+#include "read_and_check.h"
 
 namespace {
+
+using bihive::fuzz::require;
 
 // In a skewed cell, so that `within` knows images.
 constexpr std::string_view kAtoms =
@@ -15,10 +17,6 @@ constexpr std::string_view kAtoms =
     "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 20.25           N  \n"
     "ATOM      2  CA  ALA A   1      12.104   6.134  -6.504  1.00 20.25           C  \n"
     "HETATM    3  O   HOH B   2      10.125   0.000   3.000  0.50 15.00           O  \n";
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 }  // namespace
 

@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kWidth = 120, kHeight = 80;
+constexpr int kViewerWidth = 120, kViewerHeight = 80;
 
 const GlFunctions& gl() {
   return test::GlPictures::get().functions();
@@ -45,7 +45,7 @@ void choose_plain(Viewer& viewer) {
 }
 
 // The output of show() in a framebuffer as large as the picture.
-Image shown(Viewer& viewer, int width = kWidth, int height = kHeight) {
+Image shown(Viewer& viewer, int width = kViewerWidth, int height = kViewerHeight) {
   GLuint texture = 0, framebuffer = 0;
   gl().GenTextures(1, &texture);
   gl().BindTexture(GL_TEXTURE_2D, texture);
@@ -86,7 +86,7 @@ double share_off(const Image& a, const Image& b) {
 
 TEST(GpuViewer, settles_at_what_the_cpu_draws) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   EXPECT_FALSE(viewer.has_gl());
   ASSERT_TRUE(viewer.attach_gl(gl()));
   EXPECT_TRUE(viewer.has_gl());
@@ -144,19 +144,20 @@ TEST(GpuViewer, moves_and_shows_the_last_picture_meanwhile) {
 
 TEST(GpuViewer, a_picture_to_be_saved_does_not_disturb) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
   choose_plain(viewer);
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   const Image before = shown(viewer);
-  const Result<PngPixels> same = viewer.picture(kWidth, kHeight, viewer.settings().picture.result().samples_per_pixel);
+  const Result<PngPixels> same =
+      viewer.picture(kViewerWidth, kViewerHeight, viewer.settings().picture.result().samples_per_pixel);
   ASSERT_TRUE(same);
   EXPECT_LE(share_off({same->width, same->height, same->bytes}, before), 0.001);
-  const Result<PngPixels> larger = viewer.picture(2 * kWidth, 2 * kHeight, 1);
+  const Result<PngPixels> larger = viewer.picture(2 * kViewerWidth, 2 * kViewerHeight, 1);
   ASSERT_TRUE(larger);
-  EXPECT_EQ(larger->width, 2 * kWidth);
+  EXPECT_EQ(larger->width, 2 * kViewerWidth);
   EXPECT_EQ(picture_hash(shown(viewer)), picture_hash(before));
   viewer.orbit(30, 0);
   settle(viewer);
@@ -165,7 +166,7 @@ TEST(GpuViewer, a_picture_to_be_saved_does_not_disturb) {
 
 TEST(GpuViewer, a_picture_to_be_saved_comes_in_steps_and_may_be_dropped) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
   choose_plain(viewer);
@@ -200,7 +201,7 @@ TEST(GpuViewer, a_picture_to_be_saved_comes_in_steps_and_may_be_dropped) {
 
 TEST(GpuViewer, a_lost_context_comes_back) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("scenario3"));
   choose(viewer, ViewerEngine::gpu);
@@ -213,7 +214,7 @@ TEST(GpuViewer, a_lost_context_comes_back) {
     EXPECT_FALSE(viewer.has_gl());
     EXPECT_EQ(viewer.settings().engine, ViewerEngine::cpu) << "the CPU goes on";
     settle(viewer);
-    EXPECT_EQ(viewer.image().width, kWidth);
+    EXPECT_EQ(viewer.image().width, kViewerWidth);
     ViewerSettings settings = viewer.settings();
     settings.engine = ViewerEngine::gpu;
     EXPECT_THAT(viewer.set(settings).error().to_string(), HasSubstr("no graphics processor"));
@@ -231,11 +232,11 @@ void expect_same_pictures(Viewer& viewer, const std::string& what) {
   choose(viewer, ViewerEngine::cpu);
   settle(viewer);
   const Image by_cpu = viewer.image();
-  const Result<PngPixels> cpu_file = viewer.picture(kWidth, kHeight, 2);
+  const Result<PngPixels> cpu_file = viewer.picture(kViewerWidth, kViewerHeight, 2);
   choose(viewer, ViewerEngine::gpu);
   settle(viewer);
   EXPECT_LE(share_off(shown(viewer), by_cpu), 0.005);
-  const Result<PngPixels> gpu_file = viewer.picture(kWidth, kHeight, 2);
+  const Result<PngPixels> gpu_file = viewer.picture(kViewerWidth, kViewerHeight, 2);
   ASSERT_TRUE(cpu_file && gpu_file);
   ASSERT_EQ(gpu_file->channels, cpu_file->channels);
   std::int64_t apart = 0;
@@ -246,7 +247,7 @@ void expect_same_pictures(Viewer& viewer, const std::string& what) {
 
 TEST(GpuViewer, draws_styles_and_looks) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerSettings settings = viewer.settings();
@@ -261,7 +262,7 @@ TEST(GpuViewer, draws_styles_and_looks) {
   ASSERT_TRUE(viewer.set_look(look));
   expect_same_pictures(viewer, "the style xray on a transparent background");
   EXPECT_EQ(viewer.look(), look);
-  EXPECT_EQ(viewer.picture(kWidth, kHeight, 1)->channels, 4);
+  EXPECT_EQ(viewer.picture(kViewerWidth, kViewerHeight, 1)->channels, 4);
 
   // A change of the look while the graphics processor draws.
   ViewerLook other;
@@ -276,7 +277,7 @@ TEST(GpuViewer, draws_styles_and_looks) {
 
 TEST(GpuViewer, draws_lens_tone_and_labels) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
   choose_plain(viewer);
@@ -331,7 +332,7 @@ TEST(GpuViewer, labels_are_sharp_in_coarse_pictures) {
 
 TEST(GpuViewer, cut_spheres_stay_with_the_cpu) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("demo"));
   ViewerLook look;
@@ -350,7 +351,7 @@ TEST(GpuViewer, cut_spheres_stay_with_the_cpu) {
 
 TEST(GpuViewer, refuses_what_it_cannot_draw_and_goes_on) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kViewerWidth, kViewerHeight);
   ASSERT_TRUE(viewer.attach_gl(gl()));
   ASSERT_TRUE(viewer.load_built_in("scenario1"));
   choose(viewer, ViewerEngine::gpu);

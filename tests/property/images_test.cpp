@@ -92,12 +92,12 @@ std::vector<Ray> rays_for(const World& copies, const Tracer& truth, std::int64_t
   return list;
 }
 
-struct Expected {
+struct ExpectedHits {
   std::vector<Hit> hits;
   std::vector<std::vector<Crossing>> all;
 };
 
-void check_engine(const Tracer& tracer, const RayBatch& rays, const Expected& expected) {
+void check_engine(const Tracer& tracer, const RayBatch& rays, const ExpectedHits& expected) {
   const std::int64_t count = rays.size();
   HitBatch hits;
   hits.resize(count);
@@ -121,7 +121,7 @@ void check_engine(const Tracer& tracer, const RayBatch& rays, const Expected& ex
   }
 }
 
-void check_all_hits(const RayEngine& engine, std::int64_t stored, const RayBatch& rays, const Expected& expected) {
+void check_all_hits(const RayEngine& engine, std::int64_t stored, const RayBatch& rays, const ExpectedHits& expected) {
   std::vector<RayHit> found;
   engine.all_hits(rays.span(), RayOrder::blocks, found);
   std::size_t next = 0;
@@ -149,8 +149,8 @@ void check_all_hits(const RayEngine& engine, std::int64_t stored, const RayBatch
   for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(sums[i], expected.all[i].size()) << "ray " << i;
 }
 
-Expected truth_of(const SphereSet& spheres, const RayBatch& rays) {
-  Expected expected;
+ExpectedHits truth_of(const SphereSet& spheres, const RayBatch& rays) {
+  ExpectedHits expected;
   for (std::int64_t i = 0; i < rays.size(); ++i) {
     const Ray ray = rays.span().at(i);
     expected.hits.push_back(closest_hit(spheres, ray));
@@ -194,7 +194,7 @@ TEST(images, answer_as_copies_do) {
       blocks.add_camera(rays);
       blocks.add_shadow(rays);
     }
-    const Expected expected = truth_of(copied_set, rays);
+    const ExpectedHits expected = truth_of(copied_set, rays);
     for (const Hit& hit : expected.hits) found += hit.found() ? 1 : 0;
 
     check_engine(Tracer::build(set, Engine::brute).value(), rays, expected);
@@ -225,7 +225,7 @@ TEST(images, of_a_part_answer_as_copies_of_it_do) {
     for (std::int64_t id = 0; id < set.size(); id += 2) ids.push_back(id);
     const Tracer truth = Tracer::build(copied_set, Engine::reference).value();
     const RayBatch rays = test::batch_of(rays_for(copied(replicated), truth, 600 / test::ray_share()));
-    Expected expected = truth_of(copied_set, rays);
+    ExpectedHits expected = truth_of(copied_set, rays);
     for (const Engine engine : {Engine::wide, Engine::reference, Engine::brute}) {
       const auto tracer = build_engine(set, ids, nullptr, engine).value();
       HitBatch hits;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "bihive/math/rng.h"
@@ -13,8 +14,6 @@
 
 namespace bihive {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 UnionMeasures measures_of(const SphereSet& set, bool periodic) {
   MeasureOptions options;
@@ -27,19 +26,21 @@ TEST(MeasureDerivatives, OneAndTwoSpheres) {
   test::World world;
   world.add(1, 2, 3, 1.5);
   const UnionMeasures one = measures_of(test::sphere_set(world), false);
-  EXPECT_NEAR(one.derivatives[0].area_by_radius, 8 * kPi * 1.5, 1e-13);
-  EXPECT_NEAR(one.derivatives[0].volume_by_radius, 4 * kPi * 2.25, 1e-13);
+  EXPECT_NEAR(one.derivatives[0].area_by_radius, 8 * std::numbers::pi * 1.5, 1e-13);
+  EXPECT_NEAR(one.derivatives[0].volume_by_radius, 4 * std::numbers::pi * 2.25, 1e-13);
   EXPECT_EQ(one.derivatives[0].area_by_centre, (Vec3d{0, 0, 0}));
   // Equal spheres at the distance d: area 4 pi r^2 + 2 pi r d, volume 4/3 pi r^3 + pi (r^2 d - d^3 / 12).
   world = {};
   world.add(0, 0, 0, 1);
   world.add(1.25, 0, 0, 1);
   const UnionMeasures two = measures_of(test::sphere_set(world), false);
-  EXPECT_NEAR(two.derivatives[1].area_by_centre.x, 2 * kPi, 1e-14);
-  EXPECT_NEAR(two.derivatives[0].area_by_centre.x, -2 * kPi, 1e-14);
-  EXPECT_NEAR(two.derivatives[1].volume_by_centre.x, kPi * (1 - 1.25 * 1.25 / 4), 1e-14);
-  EXPECT_NEAR(two.derivatives[0].area_by_radius + two.derivatives[1].area_by_radius, 8 * kPi + 2.5 * kPi, 1e-13);
-  EXPECT_NEAR(two.derivatives[0].volume_by_radius + two.derivatives[1].volume_by_radius, 4 * kPi + 2.5 * kPi, 1e-13);
+  EXPECT_NEAR(two.derivatives[1].area_by_centre.x, 2 * std::numbers::pi, 1e-14);
+  EXPECT_NEAR(two.derivatives[0].area_by_centre.x, -2 * std::numbers::pi, 1e-14);
+  EXPECT_NEAR(two.derivatives[1].volume_by_centre.x, std::numbers::pi * (1 - 1.25 * 1.25 / 4), 1e-14);
+  EXPECT_NEAR(two.derivatives[0].area_by_radius + two.derivatives[1].area_by_radius,
+              8 * std::numbers::pi + 2.5 * std::numbers::pi, 1e-13);
+  EXPECT_NEAR(two.derivatives[0].volume_by_radius + two.derivatives[1].volume_by_radius,
+              4 * std::numbers::pi + 2.5 * std::numbers::pi, 1e-13);
 }
 
 // Central differences over steps of 2^-12, exact in binary32, and of their halves: Richardson's extrapolation leaves

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -26,18 +27,13 @@ using testing::HasSubstr;
 using Vectors = std::array<Vec3d, 3>;
 using Counts = std::array<std::int64_t, 3>;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr Vectors kCube{Vec3d{2, 0, 0}, Vec3d{0, 2, 0}, Vec3d{0, 0, 2}};
 
-int at_least(int least, int usual) {
-  return std::max(least, static_cast<int>(usual / test::ray_share()));
-}
-
 double ball_volume(double r) {
-  return 4 * kPi / 3 * r * r * r;
+  return 4 * std::numbers::pi / 3 * r * r * r;
 }
 double cap_volume(double r, double h) {
-  return kPi / 3 * (r - h) * (r - h) * (2 * r + h);
+  return std::numbers::pi / 3 * (r - h) * (r - h) * (2 * r + h);
 }
 
 SphereSet set_of(const test::World& world, const Vectors& vectors) {
@@ -71,18 +67,18 @@ TEST(PeriodicMeasures, OneSphereInACubicCell) {
   EXPECT_TRUE(free.cavities.empty());
 
   const UnionMeasures touching = measures_of(one_sphere(1));
-  EXPECT_NEAR(touching.porosity, 1 - kPi / 6, 1e-15);
+  EXPECT_NEAR(touching.porosity, 1 - std::numbers::pi / 6, 1e-15);
   EXPECT_TRUE(touching.channels.empty());
 
   const UnionMeasures lenses = measures_of(one_sphere(1.25));
   EXPECT_NEAR(lenses.volume, ball_volume(1.25) - 6 * cap_volume(1.25, 1), 1e-14);
-  EXPECT_NEAR(lenses.area, 4 * kPi * 1.25 * 1.25 - 6 * 2 * kPi * 1.25 * 0.25, 1e-13);
+  EXPECT_NEAR(lenses.area, 4 * std::numbers::pi * 1.25 * 1.25 - 6 * 2 * std::numbers::pi * 1.25 * 0.25, 1e-13);
   EXPECT_NEAR(lenses.porosity, 1 - lenses.volume / 8, 1e-15);
   EXPECT_LT(lenses.porosity_error, 1e-11);
   ASSERT_EQ(lenses.contacts.size(), 3u);
   EXPECT_EQ(lenses.contacts[0].image, (Counts{0, 0, 1}));
   EXPECT_EQ(lenses.contacts[2].image, (Counts{1, 0, 0}));
-  for (const Contact& contact : lenses.contacts) EXPECT_NEAR(contact.area, kPi * (1.25 * 1.25 - 1), 1e-14);
+  for (const Contact& contact : lenses.contacts) EXPECT_NEAR(contact.area, std::numbers::pi * (1.25 * 1.25 - 1), 1e-14);
   ASSERT_EQ(lenses.channels.size(), 1u);
   EXPECT_THAT(lenses.channels[0].translations, ElementsAre(Counts{1, 0, 0}, Counts{0, 1, 0}, Counts{0, 0, 1}));
   EXPECT_NEAR(lenses.channels[0].area, lenses.area, 1e-13);
@@ -162,7 +158,7 @@ Vectors random_cell(SplitMix64& rng, double size) {
 
 TEST(PeriodicMeasures, AgreeWithPoints) {
   SplitMix64 rng(17);
-  const int sets = at_least(3, 5), points = at_least(5000, 40'000);
+  const int sets = test::at_least(3, 5), points = test::at_least(5000, 40'000);
   for (int set = 0; set < sets; ++set) {
     const int count = 1 + set;
     const Vectors vectors = random_cell(rng, 1);
@@ -202,7 +198,7 @@ TEST(PeriodicMeasures, AgreeWithPoints) {
 // The same union in a cell of several, whatever the shape.
 TEST(PeriodicMeasures, LargerCellsHoldMultiples) {
   SplitMix64 rng(23);
-  const int sets = at_least(3, 30);
+  const int sets = test::at_least(3, 30);
   for (int set = 0; set < sets; ++set) {
     // On a grid, so that copies are exact, and in half of the sets degenerate.
     const double grid = set % 2 == 0 ? 4 : 1024;
@@ -242,7 +238,7 @@ TEST(PeriodicMeasures, LargerCellsHoldMultiples) {
 
 TEST(PeriodicMeasures, SpheresMayBeStoredInAnyCell) {
   SplitMix64 rng(29);
-  const int sets = at_least(5, 50);
+  const int sets = test::at_least(5, 50);
   for (int set = 0; set < sets; ++set) {
     const auto below = [&](int n) { return static_cast<int>(n * rng.next_double()); };
     const Vectors vectors{Vec3d{1.5, 0, 0}, Vec3d{0.5, 1.25, 0}, Vec3d{-0.25, 0.5, 1}};
@@ -303,7 +299,7 @@ TEST(PeriodicMeasures, FewerPeriodicVectors) {
 
 TEST(PeriodicMeasures, SameBitsOnAnyNumberOfThreadsAndByTheTree) {
   SplitMix64 rng(31);
-  test::World world = random_world(rng, at_least(400, 2000), 16, 0.25, 1);
+  test::World world = random_world(rng, test::at_least(400, 2000), 16, 0.25, 1);
   const Vectors vectors{Vec3d{16, 0, 0}, Vec3d{1, 16, 0}, Vec3d{0, -2, 16}};
   const SphereSet set = set_of(world, vectors);
   MeasureOptions options = periodic_options();

@@ -33,7 +33,7 @@ TreePointer tree_of(const SphereSet& spheres, const WideParameters& parameters =
   return *tree;
 }
 
-struct Points {
+struct PointSet {
   std::vector<double> xyz;
 
   std::int64_t count() const { return static_cast<std::int64_t>(xyz.size() / 3); }
@@ -45,9 +45,9 @@ struct Points {
 };
 
 // Points around the set, far from it, at centres, on surfaces and within an ulp of them, and between centres.
-Points points_for(const SphereSet& spheres, std::uint64_t seed, std::int64_t count) {
+PointSet points_for(const SphereSet& spheres, std::uint64_t seed, std::int64_t count) {
   SplitMix64 rng(seed);
-  Points points;
+  PointSet points;
   const SphereSet::Bounds box = spheres.bounds();
   double extent = 1;
   Vec3d middle{0, 0, 0};
@@ -89,7 +89,7 @@ Points points_for(const SphereSet& spheres, std::uint64_t seed, std::int64_t cou
   return points;
 }
 
-std::string place(const std::string& name, const Points& points, std::int64_t i) {
+std::string place(const std::string& name, const PointSet& points, std::int64_t i) {
   char text[120];
   const double* const p = points.xyz.data() + 3 * i;
   std::snprintf(text, sizeof text, ", point %lld: %a %a %a", static_cast<long long>(i), p[0], p[1], p[2]);
@@ -100,7 +100,7 @@ bool same(const SphereAtDistance& expected, double distance, std::int64_t id) {
   return expected.second == id && std::memcmp(&expected.first, &distance, sizeof distance) == 0;
 }
 
-void check_nearest(const std::string& name, const SphereSet& spheres, const WideTree& tree, const Points& points,
+void check_nearest(const std::string& name, const SphereSet& spheres, const WideTree& tree, const PointSet& points,
                    std::int64_t most, double within, const PointOptions& options) {
   const auto answer = nearest_spheres(tree, points.span(), most, within, options);
   ASSERT_TRUE(answer.ok()) << answer.error().to_string();
@@ -120,7 +120,7 @@ void check_nearest(const std::string& name, const SphereSet& spheres, const Wide
   }
 }
 
-void check_lists(const std::string& name, const SphereSet& spheres, const Points& points,
+void check_lists(const std::string& name, const SphereSet& spheres, const PointSet& points,
                  const std::vector<double>& limits, const PointOptions& options, const Result<SphereLists>& answer) {
   ASSERT_TRUE(answer.ok()) << answer.error().to_string();
   ASSERT_EQ(static_cast<std::int64_t>(answer->begin.size()), points.count() + 1);
@@ -164,7 +164,7 @@ void check_pairs(const std::string& name, const SphereSet& spheres, const WideTr
 }
 
 // Limits from 0 to the size of the set, below 0 too.
-std::vector<double> limits_for(const SphereSet& spheres, const Points& points, std::uint64_t seed) {
+std::vector<double> limits_for(const SphereSet& spheres, const PointSet& points, std::uint64_t seed) {
   SplitMix64 rng(seed);
   std::vector<double> limits;
   for (std::int64_t i = 0; i < points.count(); ++i) {
@@ -186,7 +186,7 @@ void check_all(const std::string& name, const SphereSet& spheres, const WideTree
     for (const int threads : {1, 2, 7})
       for (const DistanceTo to : {DistanceTo::surface, DistanceTo::centre})
         for (const bool masked : {false, true}) {
-          const Points points = points_for(spheres, ++seed, count);
+          const PointSet points = points_for(spheres, ++seed, count);
           const std::vector<double> limits = limits_for(spheres, points, seed);
           const PointOptions options{to, masked ? mask.data() : nullptr, threads};
           const std::string form = name + ", " + target + ", " + std::to_string(threads) + " threads" +
@@ -232,7 +232,7 @@ TEST(Points, ManyOfThemAreSortedAndGetTheSameAnswers) {
   const std::int64_t count = 6000 / test::ray_share() + 4200;  // enough to be sorted
   const SphereSet spheres = test::sphere_set(test::random_world("many", 5, 4200, 10, 0.2, 0.9, 3, 4, 5));
   const TreePointer tree = tree_of(spheres);
-  const Points points = points_for(spheres, 6, count);
+  const PointSet points = points_for(spheres, 6, count);
   std::vector<double> limits = limits_for(spheres, points, 7);
   for (double& limit : limits) limit = std::min(limit, 2.0);
   check_nearest("many", spheres, *tree, points, 2, kInf, {DistanceTo::surface, nullptr, 2});
@@ -250,7 +250,7 @@ TEST(Points, AnImageOfATreeHasMovedSpheres) {
   SphereSet spheres = test::sphere_set(world);
   ASSERT_TRUE(spheres.replicate({Vec3d{2.1, 0, 0}, {0.3, 2.2, 0}, {0, 0, 2.3}}, {2, 2, 1}).ok());
   const TreePointer tree = tree_of(spheres);
-  const Points points = points_for(spheres, 9, 200);
+  const PointSet points = points_for(spheres, 9, 200);
   // The spheres of copy 3 alone, by a mask for brute force.
   const WideTree image = tree->image(spheres.images().shift(3) * spheres.scale());
   for (std::int64_t i = 0; i < points.count(); ++i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -21,12 +22,6 @@ namespace bihive {
 namespace {
 
 using measure::Balls;
-
-constexpr double kPi = 3.14159265358979323846;
-
-int at_least(int least, int usual) {
-  return std::max(least, static_cast<int>(usual / test::ray_share()));
-}
 
 UnionMeasures cells_of(const SphereSet& spheres) {
   MeasureOptions options;
@@ -45,11 +40,11 @@ TEST(PowerCells, TwoSpheresShareADisc) {
   const Contact& contact = measures.contacts[0];
   EXPECT_EQ(contact.first, 0);
   EXPECT_EQ(contact.second, 1);
-  EXPECT_NEAR(contact.area, 16 * kPi, 1e-12);
+  EXPECT_NEAR(contact.area, 16 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(contact.distance, 3, 1e-14);
-  const double lost = kPi / 3 * (5 - 3) * (5 - 3) * (2 * 5 + 3);
-  EXPECT_NEAR(measures.sphere_volume[0], 4 * kPi / 3 * 125 - lost, 1e-11);
-  EXPECT_NEAR(measures.sphere_volume[2], 4 * kPi / 3, 1e-13);
+  const double lost = std::numbers::pi / 3 * (5 - 3) * (5 - 3) * (2 * 5 + 3);
+  EXPECT_NEAR(measures.sphere_volume[0], 4 * std::numbers::pi / 3 * 125 - lost, 1e-11);
+  EXPECT_NEAR(measures.sphere_volume[2], 4 * std::numbers::pi / 3, 1e-13);
   EXPECT_NEAR(measures.sphere_volume[0] + measures.sphere_volume[1] + measures.sphere_volume[2], measures.volume,
               measures.volume_error);
 }
@@ -64,7 +59,7 @@ TEST(PowerCells, NestedAndEqualSpheresHaveNone) {
   EXPECT_TRUE(measures.contacts.empty());
   EXPECT_EQ(measures.sphere_volume[1], 0);
   EXPECT_EQ(measures.sphere_volume[2], 0);
-  EXPECT_NEAR(measures.sphere_volume[0], 32 * kPi / 3, 1e-12);
+  EXPECT_NEAR(measures.sphere_volume[0], 32 * std::numbers::pi / 3, 1e-12);
 }
 
 // Three spheres of one radius at the corners of an equilateral triangle: each disc ends at the line of all three
@@ -79,7 +74,7 @@ TEST(PowerCells, ThreeSpheresShareALine) {
   ASSERT_EQ(measures.contacts.size(), 3u);
   // A disc of radius s without what lies beyond a line at the distance h from its centre.
   const double s = root / 2, h = root / 6;
-  const double left = s * s * (kPi - std::acos(h / s)) + h * std::sqrt(s * s - h * h);
+  const double left = s * s * (std::numbers::pi - std::acos(h / s)) + h * std::sqrt(s * s - h * h);
   for (const Contact& contact : measures.contacts) {
     EXPECT_NEAR(contact.area, left, 1e-6);  // the third centre is rounded to binary32
     EXPECT_NEAR(contact.distance, 0.5, 1e-7);
@@ -88,7 +83,7 @@ TEST(PowerCells, ThreeSpheresShareALine) {
 
 TEST(PowerCells, CellsSumUpToTheUnionHoweverDegenerate) {
   SplitMix64 rng(5);
-  const int sets = at_least(150, 3000);
+  const int sets = test::at_least(150, 3000);
   for (int set = 0; set < sets; ++set) {
     const Balls balls = test::hostile_balls(rng, set % 4);
     std::vector<std::int64_t> all(static_cast<std::size_t>(balls.size()));
@@ -123,7 +118,7 @@ TEST(PowerCells, CellsSumUpToTheUnionHoweverDegenerate) {
 
 TEST(PowerCells, AgreeWithPoints) {
   SplitMix64 rng(8);
-  const int sets = at_least(2, 5), points = 40'000;
+  const int sets = test::at_least(2, 5), points = 40'000;
   for (int set = 0; set < sets; ++set) {
     test::World world;
     const int count = 20 + 10 * set;

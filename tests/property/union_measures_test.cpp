@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -28,12 +29,6 @@ namespace {
 
 using measure::Balls;
 
-int at_least(int least, int usual) {
-  return std::max(least, static_cast<int>(usual / test::ray_share()));
-}
-
-constexpr double kPi = 3.14159265358979323846;
-
 struct Sums {
   double area = 0, volume = 0;
 };
@@ -54,7 +49,7 @@ Sums sums_of(const Balls& balls) {
 
 TEST(UnionMeasuresProperty, DegenerateSetsAreLimitsOfSmallerBalls) {
   SplitMix64 rng(41);
-  const int sets = at_least(100, 2000);
+  const int sets = test::at_least(100, 2000);
   for (int set = 0; set < sets; ++set) {
     const Balls balls = test::hostile_balls(rng, set % 4);
     // Smaller by what the symbolic amounts stand for, in their order.
@@ -94,7 +89,7 @@ int components_of(const Balls& balls) {
 
 TEST(UnionMeasuresProperty, SurfacesBoundTheConnectedParts) {
   SplitMix64 rng(12);
-  const int sets = at_least(100, 2000);
+  const int sets = test::at_least(100, 2000);
   for (int set = 0; set < sets; ++set) {
     Balls balls = test::hostile_balls(rng, set % 4);
     if (set % 5 == 4) {
@@ -121,7 +116,7 @@ TEST(UnionMeasuresProperty, SurfacesBoundTheConnectedParts) {
       double solid_angle = 0;
       for (std::size_t p = first; p < pieces.pieces.size(); ++p) {
         EXPECT_GT(pieces.pieces[p].solid_angle, -1e-9) << "set " << set << " sphere " << i;
-        EXPECT_LT(pieces.pieces[p].solid_angle, 4 * kPi + 1e-9) << "set " << set << " sphere " << i;
+        EXPECT_LT(pieces.pieces[p].solid_angle, 4 * std::numbers::pi + 1e-9) << "set " << set << " sphere " << i;
         solid_angle += pieces.pieces[p].solid_angle;
       }
       EXPECT_NEAR(solid_angle, part.solid_angle, 1e-9) << "set " << set << " sphere " << i;
@@ -145,7 +140,7 @@ TEST(UnionMeasuresProperty, SurfacesBoundTheConnectedParts) {
 
 TEST(UnionMeasuresProperty, DecisionsDoNotDependOnTheOrderOfThreeSpheres) {
   SplitMix64 rng(4);
-  const int sets = at_least(20, 100);
+  const int sets = test::at_least(20, 100);
   for (int set = 0; set < sets; ++set) {
     const Balls balls = test::hostile_balls(rng, set % 4);
     const auto crosses = [&](std::int64_t i, std::int64_t j) {
@@ -172,7 +167,7 @@ TEST(UnionMeasuresProperty, DecisionsDoNotDependOnTheOrderOfThreeSpheres) {
 
 TEST(UnionMeasuresProperty, AgreesWithPoints) {
   SplitMix64 rng(7);
-  const int sets = at_least(2, 6), points = 50'000;
+  const int sets = test::at_least(2, 6), points = 50'000;
   for (int set = 0; set < sets; ++set) {
     test::World world;
     const int count = 20 + 10 * set;
@@ -201,11 +196,12 @@ TEST(UnionMeasuresProperty, AgreesWithPoints) {
     for (int i = 0; i < count; ++i) {
       int exposed = 0;
       for (int n = 0; n < each; ++n) {
-        const double z = 2 * rng.next_double() - 1, turn = 2 * kPi * rng.next_double(), along = std::sqrt(1 - z * z);
+        const double z = 2 * rng.next_double() - 1, turn = 2 * std::numbers::pi * rng.next_double(),
+                     along = std::sqrt(1 - z * z);
         const Vec3d direction{along * std::cos(turn), along * std::sin(turn), z};
         exposed += inside(spheres.centre(i) + spheres.radius(i) * direction, i) ? 0 : 1;
       }
-      const double whole = 4 * kPi * spheres.radius(i) * spheres.radius(i), part = double(exposed) / each;
+      const double whole = 4 * std::numbers::pi * spheres.radius(i) * spheres.radius(i), part = double(exposed) / each;
       area += whole * part;
       const double exact = std::min(measures.sphere_area[i] / whole, 1.0);
       variance += whole * whole * exact * (1 - exact) / each;
@@ -225,7 +221,7 @@ test::World random_world(int count, double spread, std::uint64_t seed) {
 }
 
 TEST(UnionMeasuresProperty, SameBitsOnAnyNumberOfThreads) {
-  const SphereSet spheres = test::sphere_set(random_world(at_least(1000, 5000), 15, 3));
+  const SphereSet spheres = test::sphere_set(random_world(test::at_least(1000, 5000), 15, 3));
   MeasureOptions options;
   options.probe = 0.1;
   options.threads = 1;

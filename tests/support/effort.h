@@ -35,6 +35,11 @@ inline std::int64_t ray_share() {
   return std::min<std::int64_t>(test_share(), 16);
 }
 
+/// `usual` rounds, fewer where a test takes a share of its rays, but at least `least`.
+inline int at_least(int least, int usual) {
+  return std::max(least, static_cast<int>(usual / ray_share()));
+}
+
 /// Whether a test takes this one of its sets, numbered from 0.
 inline bool takes_set(std::int64_t number) {
   return number % std::max<std::int64_t>(1, test_share() / 16) == 0;

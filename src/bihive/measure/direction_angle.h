@@ -6,10 +6,11 @@
 
 namespace bihive::measure {
 
+inline constexpr double kPi = std::numbers::pi;
+
 /// In radians, from -pi to pi, of the direction (x, y); both are finite. Its error is below 2^-50, and below 2^-50 of
 /// the angle where x > 0. 0 for x = y = 0.
 inline double direction_angle(double y, double x) {
-  constexpr double kPi = std::numbers::pi;
   const double along = std::abs(x), up = std::abs(y);
   const double longer = along < up ? up : along, shorter = along < up ? along : up;
   if (longer == 0) return 0;

@@ -1,7 +1,6 @@
 // The connected pieces of the exposed part of a sphere, for the surfaces that they form with those of other spheres.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "bihive/math/elementary.h"
@@ -11,7 +10,6 @@
 namespace bihive::measure {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDegrees = 180 / kPi;  // of a radian
 
 }  // namespace

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "bihive/base/check.h"
 #include "bihive/measure/direction_angle.h"
 
 namespace bihive::measure {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Bounds of absolute errors, derived in docs/measures.md, "Errors". u = 2^-53.
 constexpr double kCapError = 0x1p-48;       // of c and g: 32 u

@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kMostCells = 1 << 13, kMostImages = std::int64_t{1} << 28;
 constexpr double kMostOverlaps = 1 << 13;
 // Many more than distances and shares lose by rounding.
-constexpr double kAllowance = 1 + 0x1p-40;
+constexpr double kReachAllowance = 1 + 0x1p-40;
 
 // Bounds of all centres: along the axes, and in shares of the lattice's vectors.
 struct Extent {
@@ -105,7 +105,7 @@ Result<std::vector<ImageCounts>> add_images(Balls& balls, const Lattice& lattice
   double largest = extent.largest;
   std::array<std::int64_t, 3> most_counts{};
   for (std::int64_t i = 0; i < own && !too_many; ++i) {
-    const double reach = (balls.radius[i] + largest_radius) * kAllowance + 0x1p-40 * extent.largest;
+    const double reach = (balls.radius[i] + largest_radius) * kReachAllowance + 0x1p-40 * extent.largest;
     const Lattice::Range range =
         lattice.images_within(reach, balls.centre[i], extent.lowest_share, extent.highest_share, extent.largest);
     if (range.count() > kMostOverlaps) return too_large("a sphere may meet more than 8,192 images along the cell");
