@@ -9,7 +9,7 @@
 namespace bihive::workbench {
 namespace {
 
-constexpr std::uint32_t kLargestLeaf = 4;
+constexpr std::uint32_t kLbvhLeaf = 4;
 
 // The first entry of a range whose code has the highest differing bit set; the middle if all codes are equal.
 std::uint32_t split_of(const std::vector<MortonSphere>& list, std::uint32_t begin, std::uint32_t end) {
@@ -38,7 +38,7 @@ BoxTree build(const SphereSet& spheres) {
   while (!pending.empty()) {
     const Range range = pending.back();
     pending.pop_back();
-    if (range.end - range.begin <= kLargestLeaf) {
+    if (range.end - range.begin <= kLbvhLeaf) {
       tree.nodes[range.node].first = range.begin;
       tree.nodes[range.node].count = range.end - range.begin;
       continue;

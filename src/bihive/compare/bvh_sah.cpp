@@ -11,12 +11,12 @@ namespace bihive::workbench {
 namespace {
 
 constexpr int kBins = 16;
-constexpr std::uint32_t kLargestLeaf = 8;  // unless centres coincide
+constexpr std::uint32_t kSahLeaf = 8;  // unless centres coincide
 // Past this level ranges are halved by count, which takes at most 32 more.
 constexpr std::int64_t kLevelsByCost = 80;
 constexpr double kNodeCost = 1, kSphereCost = 1;
 
-struct Range {
+struct SahRange {
   std::uint32_t node, begin, end;
   std::int64_t level;
 
@@ -49,13 +49,13 @@ class Builder {
 
   BoxTree build() {
     BoxTree tree;
-    std::vector<Range> pending;
+    std::vector<SahRange> pending;
     if (!ids_.empty()) {
       tree.nodes.emplace_back();
       pending.push_back({0, 0, static_cast<std::uint32_t>(ids_.size()), 1});
     }
     while (!pending.empty()) {
-      const Range range = pending.back();
+      const SahRange range = pending.back();
       pending.pop_back();
       const std::uint32_t middle = split(range);
       if (middle == range.begin) {
@@ -80,7 +80,7 @@ class Builder {
   std::vector<std::uint32_t> ids_;
 
   // Orders the range and returns where its right half begins; range.begin: it is a leaf.
-  std::uint32_t split(const Range& range) {
+  std::uint32_t split(const SahRange& range) {
     // Find the box of the centres, and of the spheres.
     Vec3d lo{1, 1, 1}, hi{-1, -1, -1};
     Aabb all;
@@ -98,7 +98,7 @@ class Builder {
     const Split best = range.level < kLevelsByCost ? best_split(range, lo, hi) : Split{};
     const double surface = half_surface(all);
     const bool pays = surface * kNodeCost + best.cost < surface * range.size() * kSphereCost;
-    if (!pays && range.size() <= kLargestLeaf) return range.begin;
+    if (!pays && range.size() <= kSahLeaf) return range.begin;
     if (best.cost == std::numeric_limits<double>::infinity()) return halve(range, lo, hi);
     const auto middle = std::partition(at(range.begin), at(range.end), [&](std::uint32_t id) {
       return bin_of(id, best.axis, lo[best.axis], hi[best.axis]) < best.bin;
@@ -106,7 +106,7 @@ class Builder {
     return static_cast<std::uint32_t>(middle - ids_.begin());
   }
 
-  Split best_split(const Range& range, Vec3d lo, Vec3d hi) const {
+  Split best_split(const SahRange& range, Vec3d lo, Vec3d hi) const {
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
       if (lo[axis] == hi[axis]) continue;
@@ -138,7 +138,7 @@ class Builder {
   }
 
   // By count along the longest axis of the centres.
-  std::uint32_t halve(const Range& range, Vec3d lo, Vec3d hi) {
+  std::uint32_t halve(const SahRange& range, Vec3d lo, Vec3d hi) {
     const Vec3d size = hi - lo;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = range.begin + range.size() / 2;
