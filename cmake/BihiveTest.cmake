@@ -8,6 +8,7 @@
 #   threads          also with the thread sanitizer
 #   alone            not compiled together with its neighbours (bihive_compile_together)
 #   no-sanitizer     without sanitizers alone
+#   share N          with one N-th of its rays (tests/support/effort.h); with all of them, it is long.SUBJECT of `make test-all`
 #   asan-long        C++: with the address sanitizer in `make test-all` alone (not with BIHIVE_SANITIZE_ALL=OFF)
 #   needs TARGET     where CMake has this target; C++ is linked to it
 #   PROPERTY VALUE   a property of the ctest entry, in capitals: COST 700, RUN_SERIAL TRUE, LABELS long
@@ -19,12 +20,12 @@ if(BIHIVE_SANITIZE)
 endif()
 
 # bihive_test_notes(file prefix): the notes of a file. Sets PREFIX_inlined, PREFIX_kernel and so on to ON, PREFIX_pattern and
-# PREFIX_needs to what follows these words, PREFIX_properties to the list of properties.
+# PREFIX_needs and PREFIX_share to what follows these words, PREFIX_properties to the list of properties.
 function(bihive_test_notes file prefix)
   foreach(flag inlined kernel threads alone no-sanitizer asan-long)
     set(${prefix}_${flag} OFF PARENT_SCOPE)
   endforeach()
-  foreach(value pattern needs properties)
+  foreach(value pattern needs share properties)
     set(${value} "")
   endforeach()
   file(STRINGS ${file} lines REGEX "^(//|#) ctest: ")
@@ -37,6 +38,8 @@ function(bihive_test_notes file prefix)
     elseif(key STREQUAL "kernel")
       set(${prefix}_kernel ON PARENT_SCOPE)
       set(pattern "${words}")
+    elseif(key STREQUAL "share" AND words)
+      set(share "${words}")
     elseif(key STREQUAL "needs" AND words)
       list(APPEND needs ${words})
     elseif(key MATCHES "^[A-Z_]+$" AND words)
@@ -45,7 +48,7 @@ function(bihive_test_notes file prefix)
       message(FATAL_ERROR "${file}: 'ctest: ${line}': cmake/BihiveTest.cmake has no such note")
     endif()
   endforeach()
-  foreach(value pattern needs properties)
+  foreach(value pattern needs share properties)
     set(${prefix}_${value} "${${value}}" PARENT_SCOPE)
   endforeach()
 endfunction()
@@ -104,8 +107,14 @@ function(add_bihive_tests kind)
     bihive_test_name(${file} name)
     string(REPLACE "." "/" of_file ${name})
     add_test(NAME ${name} COMMAND ${program} --file ${of_file})
-    set_tests_properties(${name} PROPERTIES LABELS ${kind} TIMEOUT 1800 ENVIRONMENT "${BIHIVE_TEST_ENVIRONMENT}"
-                                            ${notes_properties})
+    set(environment "${BIHIVE_TEST_ENVIRONMENT}")
+    if(notes_share AND NOT BIHIVE_SANITIZE) # which takes fewer by itself
+      string(REGEX REPLACE "^[a-z]+" long long_name ${name})
+      add_test(NAME ${long_name} COMMAND ${program} --file ${of_file})
+      set_tests_properties(${long_name} PROPERTIES LABELS long TIMEOUT 1800 ENVIRONMENT "${environment}" ${notes_properties})
+      list(APPEND environment BIHIVE_TEST_SHARE=${notes_share})
+    endif()
+    set_tests_properties(${name} PROPERTIES LABELS ${kind} TIMEOUT 1800 ENVIRONMENT "${environment}" ${notes_properties})
     if(notes_kernel)
       set_property(GLOBAL APPEND_STRING PROPERTY BIHIVE_KERNEL_TESTS "${program} ${of_file} ${notes_pattern}\n")
     endif()

@@ -21,6 +21,7 @@
 #include "bihive/scene/names.h"
 #include "bihive/viewer/contents.h"
 #include "bihive/viewer/load_file.h"
+#include "bihive/viewer/shown_measures.h"
 #include "bihive/viewer/viewer_json.h"
 #include "control_names.h"
 
@@ -325,6 +326,13 @@ std::string Page::measured_in(double frame, const emscripten::val& ids) const {
   });
 }
 
+std::string Page::measures(const std::string& selection, double probe) const {
+  return with_memory([&] {
+    const Result<std::string> json = shown_measures_to_json(viewer_.scene(), viewer_.input_spheres(), selection, probe);
+    return json ? *json : failure(json.error());
+  });
+}
+
 std::string Page::contents() const {
   return with_memory([&] { return contents_to_json(viewer_.input_spheres()); });
 }
@@ -407,6 +415,7 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("sphere", &Page::sphere)
       .function("measured", &Page::measured)
       .function("measured_in", &Page::measured_in)
+      .function("measures", &Page::measures)
       .function("contents", &Page::contents)
       .function("legend", &Page::legend)
       .function("histogram", &Page::histogram)

@@ -93,6 +93,8 @@ class Page {
   std::string measured(const emscripten::val& ids) const;
   /// {"line"}: the measure in a frame as a line of the table that `bihive info --distance` and its relatives print.
   std::string measured_in(double frame, const emscripten::val& ids) const;
+  /// viewer/shown_measures.h.
+  std::string measures(const std::string& selection, double probe) const;
   // Groups, legend and histogram of the scene (viewer/contents.h).
   std::string contents() const;
   std::string legend() const;

@@ -14,7 +14,8 @@ class CameraTest(ProgramTest):
         return self.succeed_json("render", *arguments, "-o", out)
 
     def camera(self, *arguments):
-        return self.render(*arguments)["settings"]["camera"]
+        small = () if "--size" in arguments else ("--size", "64x48")
+        return self.render(*arguments, *small, "--samples", "1")["settings"]["camera"]
 
     def widths(self, *arguments):
         """The spheres' widths in pixels along the middle row of the picture."""

@@ -48,7 +48,12 @@ class MessagesTest(ProgramTest):
                 "web": ["in.xyz", "--bind", "203.0.113.1"], "view": ["in.xyz"], "styles": []}.get(command, ["in.xyz"])
 
     def test_every_option_with_a_hostile_value(self):
+        # An option of several commands in one of them, of the others in turn.
+        commands = {}
         for command, option, kind in self.options():
+            commands.setdefault((option, kind) if option.startswith("-") else (command, option), []).append(command)
+        for number, ((option, kind), having) in enumerate(commands.items()):
+            command = having[number % len(having)]
             words = self.words_of(command)
             if option.startswith("-"):
                 given = [option, HOSTILE] if kind != "-" else [option + "=" + HOSTILE]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Lets each call of a program fail in turn, and judges what the program makes of it.
 
-Usage: run_faults.py BIHIVE FAULTS_LIBRARY [--most N] [--short] [--jobs J] [--command NAME...] [--kind KIND...]
+Usage: run_faults.py BIHIVE FAULTS_LIBRARY [--most N] [--jobs J] [--command NAME...] [--kind KIND...]
 
 For each command and each kind of call (faults.cpp) it runs the program again and again: the first call fails, then the second,
 until a run meets no fault. With --most N it takes N of these calls, evenly spread.
@@ -14,7 +14,7 @@ A run is right if
     files (absent, or those of a previous run);
   - no other file has come, gone or changed, and no descriptor is open at the end. `thesis` and `film` go on where they
     stopped: their folders may hold what is done, each file whole.
-With --short, commands that resemble others are left out. With --most, commands that write no file have half as many calls fail, at least one of each kind.
+With --most, commands that write no file have half as many calls fail, at least one of each kind.
 Prints a line for each run that is not, a table, and ends with exit code 1 if there is one.
 """
 
@@ -94,8 +94,6 @@ MPI = {"mpi": None, "mpi-rank-0": 0, "mpi-rank-1": 1}
 FOLDER = {"thesis": ("out/",), "film": ("a.y4m.part/", "a.y4m.json"), "film-sequence": ("out/",), "mpi-rank-1": ("out/",)}
 # Asio hands a signal on through a pipe of its own. Where every write fails, none arrives, so nothing but SIGKILL ends it.
 EXCEPT = {"web": {"write+"}}
-# Left out by --short: they go the way of others, or have many calls.
-ALIKE = {"info-gsd", "info-xtc", "info-trr", "render-dcd", "convert-scene", "thesis", "film-sequence", *MPI}
 MOST = {"thesis": 100, "mpi-rank-0": 6, "mpi-rank-1": 6}  # of calls of a kind, of which there are too many
 
 # In this order; those with + let all later calls fail too.
@@ -414,7 +412,6 @@ def step(case, kind, most, pool, jobs):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--most", type=int, default=0, help="runs for each command and kind; 0: all")
-    parser.add_argument("--short", action="store_true", help="without commands that resemble others")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--command", nargs="*", default=list(COMMANDS))
     parser.add_argument("--kind", nargs="*", default=KINDS)
@@ -430,8 +427,6 @@ def main():
         print("WRONG", text)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for name in options.command:
-            if options.short and name in ALIKE:
-                continue
             if name in WINDOW and not os.path.exists(beside(options.bihive, "bihive-view")):
                 print(f"{name}: left out, bihive-view was not built")
                 continue

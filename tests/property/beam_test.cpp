@@ -1,5 +1,6 @@
 // Blocks of neighbouring rays get the reference traversal's answers, bit for bit, on every target.
 // ctest: kernel
+// ctest: share 4
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // Spheres inside others, which rays leave out where they can: every query gives the reference's bits on every target,
-// and the builder knows which spheres those are. ctest: kernel
+// and the builder knows which spheres those are.
+// ctest: kernel
+// ctest: share 4
 #include "bihive/wide/build/enclosed.h"
 
 #include <gtest/gtest.h>

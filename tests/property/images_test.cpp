@@ -1,4 +1,5 @@
 // A set with images gives the bits of a set that holds the copies: every engine, every form of a query, every target.
+// ctest: share 3
 #include <gtest/gtest.h>
 
 #include <algorithm>

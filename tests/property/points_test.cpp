@@ -1,5 +1,6 @@
 // Points get the answers of brute force, bit for bit, on every target and any number of threads.
 // ctest: kernel *ManyOfThem*
+// ctest: share 3
 #include <gtest/gtest.h>
 
 #include <algorithm>

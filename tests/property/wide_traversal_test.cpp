@@ -4,6 +4,7 @@
 // machines.
 // ctest: kernel *LargeSets
 // ctest: COST 700
+// ctest: share 4
 #include <gtest/gtest.h>
 
 #include <cmath>

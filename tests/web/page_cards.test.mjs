@@ -211,3 +211,37 @@ test('in the dark theme the picture is dark, unless another background was chose
   no_complaints(complaints);
   await context.close();
 });
+
+test('area, volume and cavities are those that the program measures', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, wide);
+  const by_program = (...options) => JSON.parse(execFileSync(process.env.BIHIVE, ['measure', 'demo', '--json', ...options], { encoding: 'utf8' }));
+  const measured = async (selection, probe) => {
+    await page.fill('#union_selection', selection);
+    await page.fill('#union_probe', probe);
+    await page.click('#union_measure');
+    await page.waitForFunction(() => document.querySelectorAll('#union_result p').length === 4 && !document.getElementById('union_measure').disabled);
+    return page.$$eval('#union_result p', (all) => all.map(({ textContent }) => textContent));
+  };
+  const six = (number) => String(+number.toPrecision(6));
+  for (const [selection, probe] of [['', '1.4'], ['chain A', '0']]) {
+    const expected = by_program('--probe', probe, ...(selection ? ['--select', selection] : []));
+    const shown = await measured(selection, probe);
+    assert.equal(shown[0], `Area ${six(expected.area)} Å²`);
+    assert.equal(shown[1], `Volume ${six(expected.volume)} Å³`);
+    assert.match(shown[2], new RegExp(`^${expected.cavities || 'No'} cavit`));
+    assert.match(shown[2], expected.components === 1 ? /in one piece$/ : new RegExp(`in ${expected.components} pieces$`));
+  }
+  // What is hidden does not count, and another look makes the numbers old.
+  await holds(page, 'water');
+  await and_settle(page, () => page.click(`${entry('#groups', 'water')} .eye`));
+  assert.equal(await page.textContent('#union_result'), '');
+  const without = by_program('--probe', '1.4', '--select', 'not water');
+  assert.equal((await measured('', '1.4'))[0], `Area ${six(without.area)} Å²`);
+  await page.fill('#union_selection', 'resname ZZZ');
+  await page.click('#union_measure');
+  await page.waitForSelector('#errors .message');
+  assert.match(await page.textContent('#errors'), /nothing to measure/);
+  assert.equal(await page.isDisabled('#union_measure'), false);
+  no_complaints(complaints);
+  await context.close();
+});

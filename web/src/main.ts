@@ -37,6 +37,7 @@ import { is_dark, start_theme } from './theme';
 import { ThesisDialog } from './thesis';
 import { Tripod } from './tripod';
 import { Undo } from './undo';
+import { UnionMeasures } from './union';
 import { grouped, words as texts } from './words';
 
 const most_pixels = 2560 * 1600; // of a picture on the screen
@@ -113,6 +114,7 @@ const engine = new Engine(
       looks.show_facts(answer.facts);
       inspector.begin(answer.facts.length_unit, answer.facts.frames > 1);
       groups.begin();
+      union.begin(answer.facts.length_unit);
       measured = null;
       looks.show(look, answer.counts, answer.coloured_by);
       cut.begin();
@@ -172,6 +174,7 @@ const engine = new Engine(
       groups.take(contents, legend);
       if (contents) cut.take(contents);
     },
+    measured_union: ({ numbers }) => union.done(numbers),
     histogram: ({ attribute, histogram }) => looks.histogram(attribute, histogram),
     measured_frames: ({ lines, done, finished }) => {
       if (!measured) return;
@@ -199,7 +202,10 @@ const engine = new Engine(
     },
     player: ({ player: state }) => {
       player.show(state);
-      if (state.shown && state.frame !== shown_frame) inspector.moved();
+      if (state.shown && state.frame !== shown_frame) {
+        inspector.moved();
+        union.outdated();
+      }
       if (state.shown) shown_frame = state.frame;
     },
     statistics: ({ json }) => show_statistics(json),
@@ -273,6 +279,7 @@ function look_changed(): void {
   groups.show();
   cut.show();
   inspector.moved();
+  union.outdated();
 }
 const saving = new Saving({
   draw: (width_px, height_px) => {
@@ -311,6 +318,7 @@ const inspector = new Inspector({
     engine.send({ type: 'measure_frames', spheres, frames: facts?.frames ?? 1 });
   },
 });
+const union = new UnionMeasures((selection, probe) => engine.send({ type: 'measure_union', selection, probe }));
 const player = new PlayerBar((action) => engine.send({ type: 'play', action }));
 const thesis = new ThesisDialog({
   run: (quick, saved) => engine.send({ type: 'thesis', quick, device: device_json(), saved }),

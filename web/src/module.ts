@@ -33,6 +33,7 @@ export interface Page {
   sphere(id: number): string;
   measured(ids: number[]): string;
   measured_in(frame: number, ids: number[]): string;
+  measures(selection: string, probe: number): string;
   contents(): string;
   legend(): string;
   histogram(attribute: string, bins: number): string;

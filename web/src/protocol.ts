@@ -206,6 +206,18 @@ export interface Measure {
   nearest_images: boolean; // of a periodic cell
 }
 
+/** Of a union of spheres, in the scene's unit (viewer/shown_measures.h). */
+export interface UnionNumbers {
+  spheres: number;
+  area: number;
+  area_error: number;
+  volume: number;
+  volume_error: number;
+  components: number;
+  undecided_spheres: number; // above 0: cavities and components are not known
+  cavities: number[]; // their volumes, from large to small
+}
+
 /** Messages to the worker. `id` is returned with the answer. `packed`: the module, by LZMA. `ground`: the background of files
  * of spheres without a look; empty: their own. */
 export type Request =
@@ -219,6 +231,7 @@ export type Request =
   | { type: 'pick'; id: number; x_px: number; y_px: number }
   | { type: 'describe'; spheres: number[] } // by their ids
   | { type: 'measure_frames'; spheres: number[]; frames: number }
+  | { type: 'measure_union'; selection: string; probe: number } // of the shown frame
   | { type: 'histogram'; attribute: string }
   | { type: 'picture'; id: number; width_px: number; height_px: number }
   | ({ type: 'film'; id: number } & FilmRequest)
@@ -244,6 +257,7 @@ export type Answer =
   | { type: 'picked'; id: number; picked: Picked | null }
   | { type: 'described'; spheres: (Picked | null)[]; measure: Measure }
   | { type: 'measured_frames'; lines: string[]; done: number; finished: boolean }
+  | { type: 'measured_union'; numbers: UnionNumbers | null } // null: an error was shown
   | { type: 'histogram'; attribute: string; histogram: Histogram | null }
   | { type: 'contents'; contents: Contents | null; legend: LegendKey[] } // null: as before
   | { type: 'picture_progress'; done: number }

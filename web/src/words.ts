@@ -35,5 +35,14 @@ export const words = {
     with_page: (page: string) => `The code is copied. It shows ${page}, which “Save as page” writes: put both into one folder.`,
   },
   measuring: 'Measuring all frames',
+  union: {
+    measuring: 'Measuring…',
+    area: (area: string) => `Area ${area}`,
+    volume: (volume: string) => `Volume ${volume}`,
+    cavities: (count: number, volume: string, components: number) =>
+      `${count === 0 ? 'No cavities' : `${count} ${count === 1 ? 'cavity' : 'cavities'} of ${volume}`}; ${components === 1 ? 'in one piece' : `in ${components} pieces`}`,
+    undecided: 'Cavities could not be told apart in this arrangement.',
+    of: (spheres: string) => `Of ${spheres} spheres, with their radii as read.`,
+  },
   heights: { whole: 'Whole window', half: 'Half the window' },
 };

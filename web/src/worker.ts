@@ -5,7 +5,7 @@ import { GlCanvas } from './gl_canvas';
 import { unpacked_lzma } from './lzma';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, Choices, ColouredBy, Contents, Facts, FrameReport, Histogram, LegendKey, Look, Measure, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress,
+  Answer, Changes, Choices, ColouredBy, Contents, Facts, FrameReport, Histogram, LegendKey, Look, Measure, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress, UnionNumbers,
 } from './protocol';
 import { UserFiles } from './user_files';
 
@@ -371,6 +371,17 @@ async function measure_frames({ spheres, frames }: Request & { type: 'measure_fr
 }
 
 // Of a text there is none.
+// Of the spheres of the shown frame that the look does not hide.
+async function measure_union({ selection, probe }: Request & { type: 'measure_union' }): Promise<void> {
+  let numbers: UnionNumbers | null = null;
+  try {
+    if (!saving) for (const apply of [apply_moves, apply_look, apply_changes]) await attempt(null, apply);
+    if (has_scene) numbers = value_of<UnionNumbers>(page.measures(selection, probe));
+  } finally {
+    send({ type: 'measured_union', numbers });
+  }
+}
+
 function histogram({ attribute }: Request & { type: 'histogram' }): void {
   let found: Histogram | null = null;
   try {
@@ -546,6 +557,8 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return attempt(null, () => describe(request));
     case 'measure_frames':
       return attempt(null, () => measure_frames(request));
+    case 'measure_union':
+      return attempt(null, () => measure_union(request));
     case 'histogram':
       return attempt(null, () => histogram(request));
     case 'picture':

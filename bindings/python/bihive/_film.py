@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _bihive
 from ._adapt import is_atom_group, is_universe, spheres_of
+from ._array_columns import arrays_as_columns
 from ._camera import Look, Style
 from ._checks import boolean, path_of, several
 from ._errors import MissingError, UsageError, bad_argument, found, shortened, writing
@@ -391,7 +392,9 @@ def film(
         in_all = _count_of(source, frames)
         with Bar(progress, "filming") as bar:
             for spheres in _frames_of(source, atoms, frames):
-                words = picture_words(select, camera, style, given, of_pictures, len(spheres))
+                of_frame = dict(of_pictures)
+                spheres = arrays_as_columns(spheres, of_frame)
+                words = picture_words(select, camera, style, given, of_frame, len(spheres))
                 all_words = [*words, f"--frame={count}", "--", "spheres"]
                 # The first frame is drawn again, with the camera and the ranges that it determines for all.
                 like = like or draw(spheres, all_words, given, style_text(style), None, False)

@@ -72,7 +72,7 @@ class RenderOptions(ReadOptions, total=False):
     bond_reach: Optional[float]  # The longest bond, in sums of both atoms' covalent radii (1.2)
     stick_radius: Optional[float]  # Radius of the sticks in world units (0.15, or the style's)
     ball_scale: Optional[float]  # With bonds: multiplies all radii; 0: balls as thick as the sticks (1, or the style's)
-    arrows: Optional[str]  # Draw an arrow on each sphere, along the vector that these attributes are; arithmetic too: fx/m,fy/m,fz/m
+    arrows: Optional[Union[str, npt.ArrayLike]]  # Draw an arrow on each sphere, along the vector that these attributes are; arithmetic too: fx/m,fy/m,fz/m
     arrow_select: Optional[str]  # The spheres that have arrows (all)
     arrow_scale: Optional[float]  # Length of an arrow in world units, for a vector of length 1 (1)
     arrow_radius: Optional[float]  # Radius of the shafts of arrows in world units (a quarter of the sphere's)
@@ -80,7 +80,7 @@ class RenderOptions(ReadOptions, total=False):
     arrow_colour: Optional[Union[Colour, str]]  # Colour of arrows, or an attribute that colours them, with a map and a range (the sphere's)
     trace: Optional[Literal["none", "chain", "mol"]]  # Draw a tube through the beads of each chain, or of each molecule of the column mol (none)
     trace_select: Optional[str]  # The beads of tubes (CA and P, or all where there are none)
-    trace_radius: Optional[Union[float, str]]  # Radius of tubes in world units: a number, an attribute, or arithmetic: b_factor/50 (a quarter of the bead's)
+    trace_radius: Optional[Union[Union[float, str], npt.ArrayLike]]  # Radius of tubes in world units: a number, an attribute, or arithmetic: b_factor/50 (a quarter of the bead's)
     trace_atoms: Optional[Literal["hidden", "shown"]]  # Whether the spheres of traced residues are drawn too (hidden)
     exposure: Optional[float]  # Stops: all light times 2^EV; the background keeps its colour (the style's)
     tone: Optional[Literal["none", "soft", "filmic"]]  # Curve for light that is too bright for the picture (the style's)
