@@ -53,12 +53,12 @@ class Report(ProgramTest):
         return {name[: -len(".json")]: os.stat(os.path.join(folder, name)).st_mtime_ns for name in files}
 
     def test_an_interrupted_run_says_what_is_missing_and_goes_on(self):
-        command = ["thesis", "figure-4.4", "--quick", "--out", "out"]
+        command = ["thesis", "table-4.2", "--quick", "--out", "out"]
         # On a busy machine a run can be over before this script has seen its second step.
         for _ in range(10):
             shutil.rmtree(self.path("out"), ignore_errors=True)
             process = subprocess.Popen([BIHIVE, *command], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            while len(self.step_files("out", "figure-4.4")) < 2 and process.poll() is None:
+            while len(self.step_files("out", "table-4.2")) < 2 and process.poll() is None:
                 time.sleep(0.01)
             process.send_signal(signal.SIGINT)
             said = process.communicate(timeout=PATIENCE_S)
@@ -67,7 +67,7 @@ class Report(ProgramTest):
         self.assertEqual((said, process.returncode), (("", ""), 130))
 
         # The report shows the finished steps and names the missing ones.
-        done = self.step_files("out", "figure-4.4")
+        done = self.step_files("out", "table-4.2")
         results = self.results("out")
         (experiment,) = results["experiments"]
         missing = experiment["missing_steps"]
@@ -81,7 +81,7 @@ class Report(ProgramTest):
 
         # The same command runs the missing steps, and nothing else.
         self.succeed(*command)
-        after = self.step_files("out", "figure-4.4")
+        after = self.step_files("out", "table-4.2")
         self.assertEqual(set(after), set(done) | set(missing))
         self.assertEqual({step: after[step] for step in done}, done)
         results = self.results("out")
@@ -91,7 +91,7 @@ class Report(ProgramTest):
 
         # When everything is done it runs nothing.
         self.succeed(*command)
-        self.assertEqual(self.step_files("out", "figure-4.4"), after)
+        self.assertEqual(self.step_files("out", "table-4.2"), after)
 
     def test_a_claim_shows_its_worst_finding(self):
         shutil.copytree(os.path.join(SOURCE, "thesis"), self.path("values"))

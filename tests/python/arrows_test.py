@@ -24,6 +24,7 @@ class Arrows(ProgramTest):
         for options in ({"arrows": "vx,vy,vz", "arrow_colour": "vx:magma", "arrow_scale": 1.5}, {"trace": "mol", "trace_radius": "thick"}):
             words = [word for name, value in options.items() for word in ("--" + name.replace("_", "-"), str(value))]
             drawn = self.succeed_json("render", "v.csv", "-o", "a.png", "--size", "64x48", "--samples", "1", *words)["picture_hash"]
+            drawn = int(drawn, 16)
             self.assertEqual(bh.render(self.spheres, **options, **OPTIONS).hash, drawn)
             self.assertEqual(bh.render(self.path("v.csv"), **options, **OPTIONS).hash, drawn)
             self.assertNotEqual(bh.render(self.spheres, **OPTIONS).hash, drawn)
