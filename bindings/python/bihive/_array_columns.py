@@ -16,17 +16,17 @@ __all__ = ["arrays_as_columns", "refuse_arrays"]
 _OPTIONS = {"arrows": ((3,), ("arrow_x", "arrow_y", "arrow_z")), "trace_radius": ((), ("tube_radius",))}
 
 
-def _is_one_value(value: Any) -> bool:
+def _is_one_value(option: str, value: Any) -> bool:
     if value is None or isinstance(value, (str, bool, int, float)):
         return True
-    array = as_array("an option", value)
+    array = as_array(option, value)
     return array.ndim == 0 or array.dtype.kind in "USO"
 
 
 def refuse_arrays(options: dict[str, Any]) -> None:
     """Raises an error if there is such an array."""
     for option in _OPTIONS:
-        if not _is_one_value(options.get(option)):
+        if not _is_one_value(option, options.get(option)):
             raise bad_argument(option, "an array needs spheres in memory, in render() or a film", "read the file first: bihive.read(path)")
 
 
@@ -34,7 +34,7 @@ def arrays_as_columns(spheres: Spheres, options: dict[str, Any]) -> Spheres:
     """The spheres with attributes for these arrays, which the options name then."""
     for option, (row, names) in _OPTIONS.items():
         value = options.get(option)
-        if _is_one_value(value):
+        if _is_one_value(option, value):
             continue
         array, shape = numbers(option, value), (len(spheres), *row)
         if array.shape != shape:
