@@ -12,7 +12,7 @@ namespace bihive {
 namespace {
 
 // Units of the view box: a chart stays readable when a phone squeezes it to 330 pixels.
-constexpr double kWidth = 480;
+constexpr double kChartWidth = 480;
 constexpr double kPlotHeight = 190;
 constexpr double kLeft = 30;  // of the y axis's numbers
 constexpr double kRight = 10;
@@ -157,7 +157,7 @@ class Chart {
     if (!data_.marks.empty()) names.push_back(data_.marks_name);
     for (const std::string& name : names) {
       const double width = kLegendMark + kCharacter * static_cast<double>(name.size());
-      if (x > 0 && x + width > kWidth - 20) {
+      if (x > 0 && x + width > kChartWidth - 20) {
         x = 0;
         top_ += kLine;
       }
@@ -226,7 +226,7 @@ class Chart {
 
  private:
   double slot() const {
-    return (kWidth - left_ - kRight) / static_cast<double>(std::max<std::size_t>(1, data_.categories.size()));
+    return (kChartWidth - left_ - kRight) / static_cast<double>(std::max<std::size_t>(1, data_.categories.size()));
   }
   double y_of(double value) const { return bottom_ - kPlotHeight * axis_.place(value); }
 
@@ -264,8 +264,8 @@ class Chart {
     for (const double tick : axis_.ticks) {
       const double y = y_of(tick);
       const bool zero = tick == 0 || (axis_.logarithmic && tick == axis_.ticks.front());
-      out +=
-          fmt::format("<path class=\"{}\" d=\"M{} {:.1f}H{}\"/>\n", zero ? "axis" : "rule", left_, y, kWidth - kRight);
+      out += fmt::format("<path class=\"{}\" d=\"M{} {:.1f}H{}\"/>\n", zero ? "axis" : "rule", left_, y,
+                         kChartWidth - kRight);
       out += text(left_ - 5, y + 4, "text-anchor=\"end\"", number_text(tick));
     }
     for (std::size_t c = 0; c < data_.categories.size(); ++c) {
@@ -276,7 +276,7 @@ class Chart {
       out += text(x, y, attributes, data_.categories[c]);
     }
     const double middle = (top_ + bottom_) / 2;
-    out += text((left_ + kWidth) / 2, height_ - 8, "text-anchor=\"middle\"", data_.x_label);
+    out += text((left_ + kChartWidth) / 2, height_ - 8, "text-anchor=\"middle\"", data_.x_label);
     out += text(14, middle, fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 14 {:.1f})\"", middle),
                 data_.y_label);
     return out;
@@ -307,7 +307,7 @@ class Chart {
                "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bihive-chart\" viewBox=\"0 0 {} {:.0f}\" "
                "role=\"img\" "
                "aria-label=\"{}\">\n{}\n",
-               kWidth, height_, escape_html(data_.title), kStyle) +
+               kChartWidth, height_, escape_html(data_.title), kStyle) +
            text(10, 20, "class=\"strong\"", data_.title) + legend(lines) + axes() + marks + "</svg>\n";
   }
 

@@ -12,18 +12,18 @@
 namespace bihive {
 namespace {
 
-constexpr std::size_t kFirstColumn = 7, kWidth = 5, kMostFields = 5;  // the atom and four others
+constexpr std::size_t kFirstColumn = 7, kFieldWidth = 5, kMostFields = 5;  // the atom and four others
 
 // Five columns for each number, right-justified. Where a record departs from that, its fields between blanks.
 std::vector<std::int64_t> serials_of(std::string_view line) {
   std::vector<std::int64_t> serials;
   bool in_columns = true;
   for (std::size_t i = 0; i < kMostFields && in_columns; ++i) {
-    const std::size_t first = kFirstColumn + kWidth * i;
-    const std::string_view columns = pdb_columns(line, first, first + kWidth - 1);
+    const std::size_t first = kFirstColumn + kFieldWidth * i;
+    const std::string_view columns = pdb_columns(line, first, first + kFieldWidth - 1);
     if (trim(columns).empty()) break;
     const auto serial = parse_int(trim(columns));
-    in_columns = serial && columns.size() == kWidth && columns.back() != ' ';
+    in_columns = serial && columns.size() == kFieldWidth && columns.back() != ' ';
     if (in_columns) serials.push_back(*serial);
   }
   if (in_columns) return serials;
