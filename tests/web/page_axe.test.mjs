@@ -28,6 +28,10 @@ for (const [name, media] of [
   test(`nothing is found: ${name}`, async () => {
     const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 390, height: 844 }, ...media });
     await page.evaluate(axe);
+    // A fault that it must find.
+    await page.evaluate(() => document.getElementById('bar').append(Object.assign(document.createElement('button'), { id: 'planted' })));
+    assert.match((await found_by_axe(page)).join(), /button-name: #planted/);
+    await page.evaluate(() => document.getElementById('planted').remove());
     const found = [];
     for (const [width, height] of sizes) {
       await page.setViewportSize({ width, height });
@@ -40,6 +44,7 @@ for (const [name, media] of [
           // All that the card holds.
           for (const fold of document.querySelectorAll(`#card_${which} details`)) fold.open = true;
         }, card);
+        assert.ok(await page.by_hand.isVisible(`#card_${card}`), card);
         await look(card);
       }
       await page.keyboard.press('Escape');
