@@ -23,7 +23,7 @@ package: ## program, window, page and library as Debian packages and as an archi
 	scripts/build_web
 	scripts/package
 
-test: ## install what these tests need, build, run them: what a change must pass (half an hour on two slow cores, half of it with a filled compiler cache)
+test: ## install what these tests need, build, run them: what a change must pass (times: HACKING.md)
 	scripts/setup build
 	scripts/test --setup
 

@@ -125,7 +125,7 @@ CutSet::CutSphere CutSet::look_at(std::int64_t id) const {
   return found;
 }
 
-// What a clip removes is convex, so it removes a stick whose ends it removes. Of a plane, what is left is too.
+// Each clip removes a convex region, so a stick whose ends it removes is gone. A plane also leaves a convex region.
 CutSet::CutSphere CutSet::look_at_stick(std::int64_t id) const {
   // A clip leaves spheres of radius 0 whole, but not the point of a cone.
   constexpr double kLeastRadius = std::numeric_limits<double>::min();

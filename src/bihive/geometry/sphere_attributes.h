@@ -52,7 +52,7 @@ class TextCollector {
   std::unordered_map<std::string, std::int32_t> position_of_text_;
 };
 
-/// What a file says of a bond beside its ends.
+/// The order of a bond, as a file states it.
 enum class BondOrder : std::uint8_t { unknown, single, double_bond, triple, aromatic };
 
 /// Two different spheres by their ids, the smaller one first.
@@ -78,8 +78,8 @@ struct StatedBonds {
 
   /// Removes the bonds of all spheres whose mask is 0, and counts the others anew.
   void keep_only(const std::vector<std::uint8_t>& kept);
-  /// Those between the spheres of these ids, which become 0, 1, 2 ... Where ids are named several times, the k-th
-  /// naming of one end has a bond to the k-th of the other. Takes time by the number of ids and of their bonds alone.
+  /// The bonds between these spheres, renumbered 0, 1, 2 ... If ids repeat, the k-th occurrence of one end is bonded
+  /// to the k-th of the other. O(ids + their bonds).
   StatedBonds part(const std::vector<std::int64_t>& ids) const;
 
   std::int64_t allocated_bytes() const { return static_cast<std::int64_t>(list.capacity() * sizeof(StatedBond)); }

@@ -159,7 +159,7 @@ struct StickHit {
   double s = 0;
 };
 
-/// Where the line of a ray goes through a stick, and which of both ends count as hits of the ray.
+/// Where the line of a ray enters and leaves a stick, and which of the two points are hits of the ray.
 struct StickPassage {
   StickRoots roots;  ///< NaN: the ray does not meet the stick
   bool enters, exits;
