@@ -1,5 +1,7 @@
-"""Arrows and tubes on spheres in memory: of attributes, and of arrays."""
+"""Arrows, tubes and colours by values on spheres in memory: of attributes, and of arrays."""
 
+import copy
+import pickle
 import shutil
 
 import bihive as bh
@@ -51,6 +53,37 @@ class Arrows(ProgramTest):
                      lambda: bh.film("demo", self.path("a.mp4"), turntable=90, arrows=VECTORS, **OPTIONS)):
             with self.assertRaisesRegex(bh.UsageError, "arrows.*spheres in memory"):
                 draw()
+
+    def test_colours_by_arrays_are_those_of_attributes(self):
+        kinds = np.array(["a", "b", "a", "c"])
+        spheres = self.bare.with_columns({"thick": RADII, "kind": kinds, "values": [7, 7, 7, 7]})
+        for text, given in {
+            "thick": RADII, "thick:magma": (RADII, "magma"), "thick:viridis:0.2,1:log": (RADII.tolist(), "viridis:0.2,1:log"),
+            "kind": kinds, "kind:okabe-ito": (kinds, "okabe-ito")}.items():
+            drawn = bh.render(spheres, colour_by=text, **OPTIONS).hash
+            self.assertEqual(bh.render(self.bare, colour_by=given, **OPTIONS).hash, drawn, text)
+            self.assertEqual(bh.render(spheres, colour_by=given, **OPTIONS).hash, drawn, "the name is taken")
+            half = bh.render(spheres, looks=bh.Look("x > 3", colour_by=text), **OPTIONS).hash
+            self.assertNotEqual(half, drawn)
+            self.assertEqual(bh.render(self.bare, looks=bh.Look("x > 3", colour_by=given), **OPTIONS).hash, half, text)
+        look = bh.Look([True, False, False, True], colour_by=(RADII, "magma"))
+        self.assertEqual(look, pickle.loads(pickle.dumps(look)))
+        self.assertEqual(hash(look), hash(copy.deepcopy(look)))
+        self.assertNotEqual(look, bh.Look([True, False, False, True], colour_by=RADII))
+        self.assertEqual(bh.render(self.bare, looks=look, **OPTIONS).hash, bh.render(spheres, looks=bh.Look([0, 3], colour_by="thick:magma"), **OPTIONS).hash)
+
+    def test_colours_that_are_refused(self):
+        for given in (RADII[:3], VECTORS, (RADII, ""), (VECTORS, "magma"), [1, 2, 3, "x", None]):
+            with self.subTest(given), self.assertRaisesRegex(bh.UsageError, "colour_by"):
+                bh.render(self.bare, colour_by=given, **OPTIONS)
+            with self.subTest(given), self.assertRaisesRegex(bh.UsageError, "colour_by"):
+                bh.render(self.bare, looks=bh.Look(colour_by=given), **OPTIONS)
+        for draw in (lambda: bh.render("demo", colour_by=RADII, **OPTIONS), lambda: bh.render("demo", looks=bh.Look(colour_by=RADII), **OPTIONS),
+                     lambda: bh.save_page(self.bare, self.path("a.html"), colour_by=RADII)):
+            with self.assertRaisesRegex(bh.UsageError, "colour_by.*spheres in memory"):
+                draw()
+        with self.assertRaisesRegex(bh.UsageError, "colour_by"):
+            bh.Look(colour_by=RADII).words(4)
 
     def test_films_of_frames_in_memory(self):
         if shutil.which("ffmpeg") is None:

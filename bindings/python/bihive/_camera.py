@@ -10,7 +10,7 @@ from ._checks import boolean, mapping
 from ._colours import Linear
 from ._errors import UsageError, bad_argument, found, shortened
 from ._options import ACTIONS, action_words, option
-from ._per_sphere import PerSphere, per_sphere
+from ._per_sphere import ColourBy, PerSphere, colour_by_of, per_sphere
 from ._select import Selected, selected
 
 if TYPE_CHECKING:
@@ -96,7 +96,8 @@ class Look:
     select: an expression (docs/selections.md), or for spheres in memory a mask of shape (n,) or positions. show: False hides them. colour: a name, "#rrggbb", or three numbers as a
     screen shows them (linear light: linear()). colour_by: "ATTR[:MAP[:MIN,MAX[:log]]]". opacity: 0 (clear) to 1. material: a name. radius_scale: a factor.
     For spheres in memory arrays with a row for each of all n spheres, of which the selected ones take theirs: colour of shape
-    (n, 3) or n names, opacity (n,), and radius (n,) in world units.
+    (n, 3) or n names, opacity (n,), radius (n,) in world units, and colour_by (n,) of numbers or texts, or a pair of it and
+    "MAP[:MIN,MAX[:log]]".
     outline: pixels. crease: an attribute. legend_name: a text. clip: a text such as "plane:1,0,0,2.5", or several.
 
     >>> Look("element C", colour="orange", opacity=0.5).words()
@@ -110,7 +111,7 @@ class Look:
     select: Any = "all"
     show: Optional[bool] = None
     colour: Union[str, npt.ArrayLike, Linear, PerSphere, None] = None
-    colour_by: Optional[str] = None
+    colour_by: Union[str, npt.ArrayLike, tuple[npt.ArrayLike, str], ColourBy, None] = None
     opacity: Union[float, npt.ArrayLike, PerSphere, None] = None
     material: Optional[str] = None
     radius_scale: Optional[float] = None
@@ -131,6 +132,8 @@ class Look:
             values = per_sphere(name, getattr(self, name))
             if values is not None:
                 object.__setattr__(self, name, values)
+        if (by := colour_by_of(self.colour_by)) is not None:
+            object.__setattr__(self, "colour_by", by)
         if self.radius is not None and not isinstance(self.radius, PerSphere):
             raise bad_argument("radius", f"expected an array of shape (n,), found {found(self.radius)}", "radius_scale takes a factor")
 
@@ -144,6 +147,8 @@ class Look:
             if isinstance(value, PerSphere):
                 value.check(name, count)
                 words.append(_OF_ARRAYS[name])
+            elif isinstance(value, ColourBy):
+                raise bad_argument(name, "an array has no words", "render() takes it")
             elif value is not None:
                 words += action_words(name, value)
         return words

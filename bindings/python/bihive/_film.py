@@ -393,8 +393,8 @@ def film(
         with Bar(progress, "filming") as bar:
             for spheres in _frames_of(source, atoms, frames):
                 of_frame = dict(of_pictures)
-                spheres = arrays_as_columns(spheres, of_frame)
-                words = picture_words(select, camera, style, given, of_frame, len(spheres))
+                spheres, named = arrays_as_columns(spheres, of_frame, given)
+                words = picture_words(select, camera, style, named, of_frame, len(spheres))
                 all_words = [*words, f"--frame={count}", "--", "spheres"]
                 # The first frame is drawn again, with the camera and the ranges that it determines for all.
                 like = like or draw(spheres, all_words, given, style_text(style), None, False)

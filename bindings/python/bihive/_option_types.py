@@ -101,7 +101,7 @@ class RenderOptions(ReadOptions, total=False):
     max_depth: Optional[Union[int, Literal["unlimited"]]]  # Maximum levels of the tree (the engine's choice; reference: unlimited)
     threads: Optional[int]  # Threads (0: as many as the machine runs at once)
     colour: Optional[Union[Colour, npt.ArrayLike]]  # Colour them: a name, #rrggbb or r,g,b from 0 to 1
-    colour_by: Optional[str]  # Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed: viridis, magma, plasma, inferno, cividis, turbo, greys, coolwarm, RdBu, okabe-ito, colours such as blue-white-red, or a file of some
+    colour_by: Optional[Union[str, npt.ArrayLike, tuple[npt.ArrayLike, str]]]  # Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed: viridis, magma, plasma, inferno, cividis, turbo, greys, coolwarm, RdBu, okabe-ito, colours such as blue-white-red, or a file of some
     nan_colour: Optional[Colour]  # Colour of unknown numbers in the attribute that gives colours (grey)
     opacity: Optional[Union[float, npt.ArrayLike]]  # Their opacity, 0 (clear) to 1
     material: Optional[Literal["matte", "plastic", "metal", "glass", "flat", "toon"]]  # Their material (the style's)

@@ -10,7 +10,7 @@ from ._arrays import as_array, numbers
 from ._colours import Linear, are_texts, light_of, numbers_of_screen
 from ._errors import bad_argument
 
-__all__ = ["PerSphere", "per_sphere"]
+__all__ = ["ColourBy", "PerSphere", "colour_by_of", "per_sphere"]
 
 Array = np.ndarray[Any, Any]
 
@@ -79,3 +79,40 @@ def per_sphere(name: str, value: Any) -> Optional[PerSphere]:
     if not bool(((array >= 0) & (array <= most)).all()):
         raise bad_argument(name, "expected numbers from 0 to 1" if name == "opacity" else "expected numbers from 0 to 3.4e38")
     return PerSphere(array)
+
+
+class ColourBy:
+    """Values of all spheres that a map turns into colours: shape (n,), numbers or texts; and the map, "" or "MAP[:MIN,MAX[:log]]"."""
+
+    def __init__(self, array: Array, colours: str = "") -> None:
+        self.array = np.array(array)
+        self.array.setflags(write=False)
+        self.colours = colours
+
+    def _key(self) -> tuple[Any, ...]:
+        return self.colours, self.array.dtype.kind, tuple(repr(one) for one in self.array.tolist())
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, ColourBy) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def __repr__(self) -> str:
+        array = np.array2string(self.array, separator=", ", threshold=9)
+        return f"({array}, {self.colours!r})" if self.colours else array
+
+
+def colour_by_of(value: Any) -> Optional[ColourBy]:
+    """Values of all spheres, or a pair of them and a map; None: the name of an attribute, or nothing."""
+    if value is None or isinstance(value, (str, ColourBy)):
+        return value if isinstance(value, ColourBy) else None
+    colours = ""
+    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], str) and not isinstance(value[0], str):
+        value, colours = value
+        if not colours:
+            raise bad_argument("colour_by", "expected a map beside the values, as (values, \"magma:0,1\")")
+    array = as_array("colour_by", value)
+    if array.ndim != 1:
+        raise bad_argument("colour_by", f"expected an attribute, or shape (n,), found shape {array.shape}")
+    return ColourBy(array if are_texts(array) else numbers("colour_by", array), colours)

@@ -55,7 +55,7 @@ def picture_words(
     select: Any, camera: Camera, style: Any, looks: Sequence[Look], options: dict[str, Any], count: Optional[int] = None
 ) -> list[str]:
     """The arguments of `bihive render` for these keywords, without the input. `count`: of spheres in memory."""
-    refuse_arrays(options)
+    refuse_arrays(options, looks)
     if isinstance(camera, str):
         options = {"view_from": camera, **options}
     elif camera is not None and not isinstance(camera, (Orthographic, Perspective, Picture)):
@@ -133,9 +133,9 @@ def render(
         or a function, which is called with the finished share, 0 to 1, and in the end with 1.
     options: every other option of `bihive render` under its name with underscores: samples=16, shadows=False,
         background="black", ao=True, outline=2, fog=0.3, light="studio", legend=True, view="normal", crop=(0, 0, 64, 64),
-        transfer="none", bits=16, threads=2, engine="reference", replicate=(2, 2, 2)... For spheres in memory colour and
-        opacity may be arrays, as those of a Look, arrows an array of vectors, shape (n, 3), and trace_radius one of radii,
-        shape (n,). A tuple stands for numbers between commas.
+        transfer="none", bits=16, threads=2, engine="reference", replicate=(2, 2, 2)... For spheres in memory colour,
+        opacity and colour_by may be arrays, as those of a Look, arrows an array of vectors, shape (n, 3), and trace_radius one
+        of radii, shape (n,). Else a tuple stands for numbers between commas.
 
     Returns a Picture: the same bits as ``bihive render``, on any number of threads. Other Python threads run meanwhile, and
     Ctrl-C ends it, the reading of a file and the building of a tree included.
@@ -154,9 +154,9 @@ def render(
     else:
         made = spheres_of(spheres)
     of_picture: dict[str, Any] = {"size": size, **options}
-    if made is not None:
-        made = arrays_as_columns(made, of_picture)
     given = looks_of(looks, of_picture)
+    if made is not None:
+        made, given = arrays_as_columns(made, of_picture, given)
     words = picture_words(select, camera, style, given, of_picture, None if made is None else len(made))
     all_words: list[Union[str, bytes]] = [*words, "--", os.fsencode(path) if path is not None else "spheres"]
     return draw(made, all_words, given, style_text(style), camera if isinstance(camera, Picture) else None, progress)

@@ -74,6 +74,30 @@ void copy_part(const NumbersView& view, std::int64_t first, std::int64_t count, 
     copy_as<double>(view, first, count, origin, to);
 }
 
+// Whether these are the columns of rows of three numbers, one row after the other.
+bool are_rows(const std::array<NumbersView, 3>& columns) {
+  const bool is_wide = columns[0].precision == NumbersView::Precision::binary64;
+  const std::ptrdiff_t size = is_wide ? sizeof(double) : sizeof(float);
+  const auto* const first = static_cast<const char*>(columns[0].first);
+  return columns[0].step_bytes == 3 * size && columns[1].first == first + size &&
+         columns[2].first == first + 2 * size && columns[1].step_bytes == 3 * size && columns[2].step_bytes == 3 * size;
+}
+
+// copy_as() of the three columns of such rows, which are read once.
+template <class From>
+void copy_rows(const std::array<NumbersView, 3>& columns, std::int64_t first, std::int64_t count, Vec3d origin,
+               std::vector<float> (&to)[3]) {
+  const char* from = static_cast<const char*>(columns[0].first) + first * columns[0].step_bytes;
+  float *const x = to[0].data(), *const y = to[1].data(), *const z = to[2].data();
+  for (std::int64_t i = 0; i < count; ++i, from += 3 * sizeof(From)) {
+    From row[3];
+    std::memcpy(row, from, sizeof(row));
+    x[i] = static_cast<float>(static_cast<double>(row[0]) - origin.x);
+    y[i] = static_cast<float>(static_cast<double>(row[1]) - origin.y);
+    z[i] = static_cast<float>(static_cast<double>(row[2]) - origin.z);
+  }
+}
+
 // The numbers in place, if they are laid out as a vector of T; else null.
 template <class T>
 const T* as_vector(const NumbersView& view, std::int64_t first) {
@@ -100,10 +124,22 @@ class RayPiece {
       copy_part(view, first, count, from, kept.data());
       return static_cast<const T*>(kept.data());
     };
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      span.origin[axis] = take_column(rays.origin[axis], batch_.origin[axis], origin[static_cast<int>(axis)]);
-      span.direction[axis] = take_column(rays.direction[axis], batch_.direction[axis]);
-    }
+    const auto take_vectors = [&](const std::array<NumbersView, 3>& columns, std::vector<float>(&kept)[3], Vec3d from,
+                                  const float*(&taken)[3]) {
+      const bool in_rows = are_rows(columns);
+      if (in_rows) {
+        for (auto& column : kept) column.resize(size);
+        if (columns[0].precision == NumbersView::Precision::binary64)
+          copy_rows<double>(columns, first, count, from, kept);
+        else
+          copy_rows<float>(columns, first, count, from, kept);
+      }
+      for (int axis = 0; axis < 3; ++axis)
+        taken[axis] =
+            in_rows ? kept[axis].data() : take_column(columns[static_cast<std::size_t>(axis)], kept[axis], from[axis]);
+    };
+    take_vectors(rays.origin, batch_.origin, origin, span.origin);
+    take_vectors(rays.direction, batch_.direction, {}, span.direction);
     if (rays.t_min) span.t_min = take_column(*rays.t_min, batch_.t_min);
     if (rays.t_max) span.t_max = take_column(*rays.t_max, batch_.t_max);
     if (rays.leaves != nullptr) span.leaves = rays.leaves + first;
