@@ -30,6 +30,7 @@ Shape = tuple[int, ...]
 # Origins, directions, t_min, t_max, leaves, inside.
 Rays = tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]]
 _ENDS = ("surface", "centre")  # of a distance
+_FLOAT64 = np.dtype(np.float64)  # this machine's byte order: one object
 _PLENTY = 2**28  # bytes: smaller answers fit into every machine
 
 
@@ -493,6 +494,8 @@ def _count_of(k: Any) -> int:
 
 def _limits(limits: Any, shape: Shape) -> Array:
     """float64, for each point."""
+    if shape == () and type(limits) is float and limits == limits:
+        return np.array((limits,))
     given = numbers("limits", limits)
     most = in_a_row("limits", given, shape)
     if given != given if given.ndim == 0 else np.isnan(given).any():
@@ -516,6 +519,9 @@ def _pass_over(core: _bihive.Tree, rays: Rays, own: Array, t: Array, ids: Array)
 def _points(points: Any) -> tuple[Array, Shape]:
     """float64 (n, 3), row by row, and the points' shape. The compiled part refuses numbers that are none; _check_points() then
     says which."""
+    # Most of the time of a single question is spent before and after it: what is already as it must be goes the short way.
+    if type(points) is np.ndarray and points.dtype is _FLOAT64 and points.shape[-1:] == (3,) and points.flags.c_contiguous:
+        return points.reshape(-1, 3), points.shape[:-1]
     array = vectors("points", points)
     return np.ascontiguousarray(array.reshape(-1, 3), dtype=np.float64), array.shape[:-1]
 

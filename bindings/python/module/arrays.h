@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -23,9 +24,17 @@ NumbersView column_of(const pybind11::array& array, pybind11::ssize_t column);
 /// The numbers of a 1-D array.
 NumbersView view_of(const pybind11::array& array);
 
+/// Arrays of at most so many numbers are copied, which takes less time than the object that would own the vector.
+inline constexpr std::size_t kFewNumbers = 256;
+
 /// A new array of these numbers, which it owns.
 template <class T>
 pybind11::array_t<T> array_from(std::vector<T> values, std::vector<pybind11::ssize_t> shape) {
+  if (values.size() <= kFewNumbers) {
+    pybind11::array_t<T> array(std::move(shape));
+    std::copy(values.begin(), values.end(), array.mutable_data());
+    return array;
+  }
   auto* const kept = new std::vector<T>(std::move(values));
   const pybind11::capsule owner(kept, [](void* vector) { delete static_cast<std::vector<T>*>(vector); });
   return pybind11::array_t<T>(std::move(shape), kept->data(), owner);
