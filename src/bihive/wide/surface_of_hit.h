@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "bihive/geometry/hit.h"
 #include "bihive/geometry/hit_surface.h"
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_set.h"
@@ -24,6 +25,11 @@ inline std::optional<HitSurface> surface_of_hit(const SphereSet& spheres, const 
   std::optional<HitSurface> surface = hit_surface(scaled, t, *centre, spheres.stored_radius(id));
   if (surface) surface->position = spheres.in_world(surface->position * spheres.inverse_scale());
   return surface;
+}
+
+/// Of a hit on a sphere of the set itself. Nothing where the ray hit nothing.
+inline std::optional<HitSurface> surface_of_hit(const SphereSet& spheres, const Ray& ray, const Hit& hit) {
+  return surface_of_hit(spheres, nullptr, ray, hit.t, hit.sphere_id);
 }
 
 }  // namespace bihive
