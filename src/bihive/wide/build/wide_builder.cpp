@@ -18,6 +18,7 @@
 #include "bihive/wide/build/repeated.h"
 #include "bihive/wide/build/split.h"
 #include "bihive/wide/build/tuning.h"
+#include "bihive/wide/tree/left_sphere.h"
 
 namespace bihive {
 namespace {
@@ -237,6 +238,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   tree.levels = 0;
   tree.largest_leaf = 0;
   tree.repeated.clear();
+  tree.repeated_filter.clear();
   tree.spheres = {};
   if (count == 0) return;
 
@@ -279,6 +281,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   tree.repeated = std::move(context.repeated);
   std::sort(tree.repeated.begin(), tree.repeated.end(),
             [](const RepeatedSphere& a, const RepeatedSphere& b) { return a.id < b.id; });
+  tree.repeated_filter = filter_of(tree.repeated);
   WideSpheres& result = tree.spheres;
   result.x = context.final.x;
   result.y = context.final.y;
@@ -334,6 +337,7 @@ void WideBuilder::State::build_without_others(const SphereSet& spheres, const Wi
   tree.piles = std::move(piles);
   tree.others_in_piles = std::move(others);
   tree.repeated = std::move(repeated);
+  tree.repeated_filter = filter_of(tree.repeated);
 }
 
 void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree,
@@ -344,7 +348,9 @@ void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& p
   if (enclosed.cores.empty()) return;
   const auto outer = std::make_shared<OuterTree>();
   build_part(spheres, enclosed.others, parameters, threads, outer->tree, work);
-  outer->tree.repeated = tree.repeated;  // a ray may exit an equal of an outer sphere
+  // A ray may exit an equal of an outer sphere.
+  outer->tree.repeated = tree.repeated;
+  outer->tree.repeated_filter = tree.repeated_filter;
   build_all(spheres.part(enclosed.enclosing), {}, threads, spheres.size(), outer->around_cores, work);
   outer->cores = std::move(enclosed.cores);
   tree.outer = outer;

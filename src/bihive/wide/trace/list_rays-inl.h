@@ -126,8 +126,8 @@ class ListRays {
     return any != 0;
   }
 
-  // Records the sphere that each ray exits. A ray that exits one of several equal spheres is marked `careful`: none of
-  // its hits counts as sure.
+  // Records the sphere that each ray exits. A ray that exits one of several equal spheres is marked `careful`: no hit on
+  // a sphere around this centre counts as sure.
   HWY_INLINE void set_up_left(std::int64_t first, int count, std::uint32_t outward_id[16]) {
     std::fill_n(outward_id, 16, kNoSphere);
     if (!leave_some_) return;
@@ -142,9 +142,14 @@ class ListRays {
         outward_id[k] = inward ? kNoSphere : outward_id[k];
       }
     }
-    if (careful_some_)
-      for (int k = 0; k < count; ++k)
-        tile_.careful[first + k] = LeftSphere(tree_, rays_.leaves[first + k]).is_repeated() ? 1 : 0;
+    if (!careful_some_) return;
+    for (int k = 0; k < count; ++k) {
+      const RepeatedSphere* const left = LeftSphere(tree_, rays_.leaves[first + k]).repeated();
+      tile_.careful[first + k] = left != nullptr ? 1 : 0;
+      tile_.left_centre[0][first + k] = left != nullptr ? left->x : 0;
+      tile_.left_centre[1][first + k] = left != nullptr ? left->y : 0;
+      tile_.left_centre[2][first + k] = left != nullptr ? left->z : 0;
+    }
   }
 
   const WideTree& tree_;

@@ -38,8 +38,9 @@ struct ListTile {
   alignas(64) float s_min[kTileRays + 16];
   // The id of the sphere that the ray goes into, or kNoSphere. Written only if some ray goes into a sphere.
   alignas(64) std::uint32_t inward_id[kTileRays + 16];
-  // 1: the sphere that the ray exits has duplicates. Written only if some spheres are equal.
+  // 1: the sphere that the ray exits has equals, around this centre. Written only if some spheres are equal.
   alignas(64) std::uint32_t careful[kTileRays + 16];
+  alignas(64) float left_centre[3][kTileRays + 16];
   alignas(64) std::uint32_t by_octant[8][kTileRays + 16];
   std::uint32_t far_rays[kTileRays];  // for the scalar traversal
   UndecidedPairs<4096> undecided;

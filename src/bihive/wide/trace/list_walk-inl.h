@@ -64,7 +64,7 @@ class ListWalk {
     test_leaf_entries();
     finish_candidates();
     if constexpr (kClosest) confirm_winners(tree_, rays_, tile_, ready_.inward_some(), decided_early_, answer_.hits);
-    decide();
+    decide<true>();
     answer_far_rays();
   }
 
@@ -223,8 +223,10 @@ class ListWalk {
       ray.inward = ready_.inward_some() && tile_.inward_id[number] != kNoSphere;
       if (ray.inward) ray.left_id = tile_.inward_id[number];
       // Nothing is sure: then each sphere that the ray may meet becomes a pair, and no segment becomes shorter.
-      if (kAllHits || (ready_.careful_some() && tile_.careful[number] != 0))
-        ray.sure_min = std::numeric_limits<float>::infinity();
+      if (kAllHits) ray.sure_min = std::numeric_limits<float>::infinity();
+      ray.careful = ready_.careful_some() && tile_.careful[number] != 0;
+      if (ray.careful)
+        for (int axis = 0; axis < 3; ++axis) ray.left_centre[axis] = tile_.left_centre[axis][number];
       ray.winner = kNoSlot;
     };
     const auto finish = [&](std::uint32_t i, const SingleRay& ray) HWY_ATTR {
@@ -341,11 +343,28 @@ class ListWalk {
       inward = hn::And(exists, hn::RebindMask(d, hn::Eq(id, gather_words(tile_.inward_id, index))));
     }
     if (ready_.careful_some())
-      sure_min = hn::IfThenElse(hn::RebindMask(d, hn::Ne(gather_words(tile_.careful, index), hn::Zero(words))),
+      sure_min = hn::IfThenElse(on_left_centre(queue, first, exists, index),
                                 in_all(std::numeric_limits<float>::infinity()), sure_min);
     const Meeting met{hn::Load(d, queue.b + first), hn::Load(d, queue.dp + first)};
     return judge(met, hn::Load(d, queue.r_squared + first), s_best, s_min, sure_min, inward, inward, bounds.e,
                  bounds.width);
+  }
+
+  // Candidates around the centre of the sphere that their ray exits, where that sphere has equals: nothing is sure of them.
+  template <class Index>
+  HWY_INLINE FloatMask on_left_centre(const CandidateQueue& queue, int first, FloatMask exists, Index ray) const {
+    const FloatTag d;
+    const hn::RebindToSigned<WordTag> ints;
+    auto equal =
+        hn::And(exists, hn::RebindMask(d, hn::Ne(gather_words(tile_.careful, ray), hn::Zero(WordTag()))));
+    if (hn::AllFalse(d, equal)) return equal;
+    const auto slot = hn::IfThenElseZero(hn::RebindMask(ints, exists),
+                                         hn::BitCast(ints, hn::Load(WordTag(), queue.slot + first)));
+    const float* const centres[3] = {tree_.spheres.x, tree_.spheres.y, tree_.spheres.z};
+    for (int axis = 0; axis < 3; ++axis)
+      equal = hn::And(equal, hn::Eq(hn::GatherIndex(d, centres[axis], slot),
+                                    hn::GatherIndex(d, tile_.left_centre[axis], ray)));
+    return equal;
   }
 
   template <class Index>
@@ -382,6 +401,8 @@ class ListWalk {
 
   // ---- Binary64 decides ----
 
+  // kAtEnd: no segment needs to become shorter any more.
+  template <bool kAtEnd = false>
   void decide() {
     decided_early_ = decided_early_ || !tile_.undecided.empty();
     decide_pairs(tree_, rays_, tile_.undecided, [&](std::uint32_t ray, double t, std::uint32_t slot) HWY_ATTR {
@@ -389,7 +410,7 @@ class ListWalk {
       if constexpr (kAllHits) answer_.found->push_back({std::int64_t{ray}, t, tree_.spheres.id(slot)});
       if constexpr (kClosest) {
         keep_nearer(answer_.hits, ray, t, tree_.spheres.id(slot));
-        tile_.s_best[ray] = std::min(tile_.s_best[ray], upper_bound_of(ray, t));
+        if constexpr (!kAtEnd) tile_.s_best[ray] = std::min(tile_.s_best[ray], upper_bound_of(ray, t));
       }
     });
   }

@@ -36,6 +36,8 @@ struct SingleRay {
   float e, width;         ///< FilterBounds
   std::uint32_t left_id;  ///< of the sphere that it exits
   bool inward;            ///< into it
+  bool careful;           ///< it has equals, around left_centre: nothing is sure of them
+  float left_centre[3];
   std::uint32_t winner;   ///< slot of the nearest sure hit, or kNoSlot
 
   HWY_INLINE void pad_offsets(float box_pad) {
@@ -182,8 +184,14 @@ HWY_INLINE bool test_leaf(const WideTree& tree, std::int64_t slot, std::int64_t 
       const auto id = hn::And(hn::LoadU(words, tree.spheres.word + first), hn::Set(words, tree.spheres.id_mask()));
       own = hn::RebindMask(d, hn::Eq(id, hn::Set(words, ray.left_id)));
     }
-    const auto judged = judge(met, r_squared, in_all(ray.s_best), in_all(ray.local.s_min), in_all(ray.sure_min), own,
+    auto judged = judge(met, r_squared, in_all(ray.s_best), in_all(ray.local.s_min), in_all(ray.sure_min), own,
                               ray.inward ? own : none, ray.e, ray.width);
+    if (HWY_UNLIKELY(ray.careful)) {
+      const auto equal = hn::And(hn::And(hn::Eq(hn::LoadU(d, tree.spheres.x + first), in_all(ray.left_centre[0])),
+                                         hn::Eq(hn::LoadU(d, tree.spheres.y + first), in_all(ray.left_centre[1]))),
+                                 hn::Eq(hn::LoadU(d, tree.spheres.z + first), in_all(ray.left_centre[2])));
+      judged.sure = hn::AndNot(equal, judged.sure);
+    }
     std::uint32_t bits = mask_bits(hn::And(passes, judged.keep));
     if (bits == 0) continue;
     const std::uint32_t sure = mask_bits(judged.sure);
@@ -303,6 +311,7 @@ HWY_INLINE bool set_up_single_ray(const Ray& world, const WideTree& tree, Single
   ray.s_best = static_cast<float>(hn::GetLane(local.s_max));
   ray.left_id = kNoSphere;
   ray.inward = false;
+  ray.careful = false;
   ray.winner = kNoSlot;
   return true;
 }

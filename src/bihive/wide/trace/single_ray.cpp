@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/geometry/sphere.h"
@@ -35,7 +34,12 @@ HWY_INLINE Hit answer_ray(const WideTree& tree, const Ray& world) {
   if (world.leaves >= 0 && world.leaves < std::int64_t{kNoSphere}) {
     ray.left_id = static_cast<std::uint32_t>(world.leaves);
     ray.inward = world.inside;
-    if (left.is_repeated()) ray.sure_min = std::numeric_limits<float>::infinity();
+    ray.careful = left.is_repeated();
+    if (ray.careful) {
+      ray.left_centre[0] = left.repeated()->x;
+      ray.left_centre[1] = left.repeated()->y;
+      ray.left_centre[2] = left.repeated()->z;
+    }
   }
 
   // Decide what binary32 cannot at once, and the winner at the end.

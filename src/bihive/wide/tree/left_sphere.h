@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "bihive/wide/wide_tree.h"
 
@@ -14,12 +15,29 @@ inline bool coincides(const WideTree& tree, std::int64_t slot, const RepeatedSph
          tree.spheres.radius(slot) == double(sphere.r);
 }
 
+/// The bit of an id in a filter of these many bits.
+inline std::uint64_t filter_bit(std::int64_t id, std::uint64_t bits) {
+  return (std::uint64_t{static_cast<std::uint32_t>(id) * 2654435769U} * bits) >> 32;
+}
+
+/// WideTree::repeated_filter: a bit is set where a repeated sphere has it.
+inline std::vector<std::uint32_t> filter_of(const std::vector<RepeatedSphere>& repeated) {
+  std::vector<std::uint32_t> filter((repeated.size() + 1) / 2);
+  for (const RepeatedSphere& sphere : repeated) {
+    const std::uint64_t bit = filter_bit(sphere.id, 32 * filter.size());
+    filter[bit / 32] |= 1U << (bit % 32);
+  }
+  return filter;
+}
+
 /// Spheres of equal centre and radius share one surface; a ray that starts on it exits all of them
 /// (geometry/scaled_ray.h). If a tree has no repeated spheres, comparing ids is enough.
 class LeftSphere {
  public:
   LeftSphere(const WideTree& tree, std::int64_t leaves) : id_(leaves) {
     if (tree.repeated.empty() || leaves < 0) return;
+    const std::uint64_t bit = filter_bit(leaves, 32 * tree.repeated_filter.size());
+    if ((tree.repeated_filter[bit / 32] >> (bit % 32) & 1) == 0) return;
     const auto found = std::lower_bound(tree.repeated.begin(), tree.repeated.end(), leaves,
                                         [](const RepeatedSphere& sphere, std::int64_t id) { return sphere.id < id; });
     if (found != tree.repeated.end() && found->id == leaves) repeated_ = &*found;

@@ -81,6 +81,7 @@ WideStatistics wide_statistics(const WideTree& tree) {
   statistics.levels = tree.levels;
   statistics.node_bytes = tree.node_count * static_cast<std::int64_t>(sizeof(WideNode));
   statistics.other_bytes = static_cast<std::int64_t>(sizeof(WideTree) + tree.repeated.size() * sizeof(RepeatedSphere) +
+                                                     tree.repeated_filter.size() * sizeof(std::uint32_t) +
                                                      tree.piles.size() * sizeof(Pile) +
                                                      tree.others_in_piles.size() * sizeof(std::uint32_t)) +
                            (tree.outer != nullptr ? tree.outer->used_bytes() : 0);

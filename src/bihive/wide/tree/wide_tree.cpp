@@ -5,7 +5,8 @@ namespace bihive {
 std::int64_t WideTree::used_bytes() const {
   const std::int64_t a_sphere = spheres.has_palette ? 16 : 20;
   return static_cast<std::int64_t>(sizeof(WideTree) + repeated.size() * sizeof(RepeatedSphere) +
-                                   piles.size() * sizeof(Pile) + others_in_piles.size() * sizeof(std::uint32_t)) +
+                                   repeated_filter.size() * sizeof(std::uint32_t) + piles.size() * sizeof(Pile) +
+                                   others_in_piles.size() * sizeof(std::uint32_t)) +
          (outer != nullptr ? outer->used_bytes() : 0) + node_count * std::int64_t{sizeof(WideNode)} +
          (placed > 0 ? (placed + kWidth) * a_sphere : 0);
 }
@@ -30,8 +31,8 @@ WideTree WideTree::image(Vec3d by) const {
 
 std::int64_t WideTree::allocated_bytes() const {
   return static_cast<std::int64_t>(
-             sizeof(WideTree) + repeated.capacity() * sizeof(RepeatedSphere) + piles.capacity() * sizeof(Pile) +
-             others_in_piles.capacity() * sizeof(std::uint32_t) + node_memory.capacity() + sphere_memory.capacity()) +
+             sizeof(WideTree) + repeated.capacity() * sizeof(RepeatedSphere) +
+             repeated_filter.capacity() * sizeof(std::uint32_t) + piles.capacity() * sizeof(Pile) + others_in_piles.capacity() * sizeof(std::uint32_t) + node_memory.capacity() + sphere_memory.capacity()) +
          (outer != nullptr ? outer->allocated_bytes() : 0);
 }
 
