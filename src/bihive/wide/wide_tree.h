@@ -106,7 +106,8 @@ struct WideTree {
   Vec3d shift;
   const WideTree* image_of = nullptr;    ///< whose `piles` are those of the image
   std::vector<RepeatedSphere> repeated;  ///< ascending ids; empty unless spheres coincide
-  std::vector<std::uint32_t> repeated_filter;  ///< sixteen bits for each, which tell most other ids apart (tree/left_sphere.h)
+  std::vector<std::uint32_t>
+      repeated_filter;  ///< sixteen bits for each, which tell most other ids apart (tree/left_sphere.h)
 
   std::vector<Pile> piles;  ///< duplicates, by ascending ids; closest and any hit ignore them
   std::vector<std::uint32_t> others_in_piles;

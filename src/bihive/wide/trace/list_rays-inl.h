@@ -126,8 +126,8 @@ class ListRays {
     return any != 0;
   }
 
-  // Records the sphere that each ray exits. A ray that exits one of several equal spheres is marked `careful`: no hit on
-  // a sphere around this centre counts as sure.
+  // Records the sphere that each ray exits. A ray that exits one of several equal spheres is marked `careful`: no hit
+  // on a sphere around this centre counts as sure.
   HWY_INLINE void set_up_left(std::int64_t first, int count, std::uint32_t outward_id[16]) {
     std::fill_n(outward_id, 16, kNoSphere);
     if (!leave_some_) return;

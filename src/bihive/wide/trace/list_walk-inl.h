@@ -350,20 +350,20 @@ class ListWalk {
                  bounds.width);
   }
 
-  // Candidates around the centre of the sphere that their ray exits, where that sphere has equals: nothing is sure of them.
+  // Candidates around the centre of the sphere that their ray exits, where that sphere has equals: nothing is sure of
+  // them.
   template <class Index>
   HWY_INLINE FloatMask on_left_centre(const CandidateQueue& queue, int first, FloatMask exists, Index ray) const {
     const FloatTag d;
     const hn::RebindToSigned<WordTag> ints;
-    auto equal =
-        hn::And(exists, hn::RebindMask(d, hn::Ne(gather_words(tile_.careful, ray), hn::Zero(WordTag()))));
+    auto equal = hn::And(exists, hn::RebindMask(d, hn::Ne(gather_words(tile_.careful, ray), hn::Zero(WordTag()))));
     if (hn::AllFalse(d, equal)) return equal;
-    const auto slot = hn::IfThenElseZero(hn::RebindMask(ints, exists),
-                                         hn::BitCast(ints, hn::Load(WordTag(), queue.slot + first)));
+    const auto slot =
+        hn::IfThenElseZero(hn::RebindMask(ints, exists), hn::BitCast(ints, hn::Load(WordTag(), queue.slot + first)));
     const float* const centres[3] = {tree_.spheres.x, tree_.spheres.y, tree_.spheres.z};
     for (int axis = 0; axis < 3; ++axis)
-      equal = hn::And(equal, hn::Eq(hn::GatherIndex(d, centres[axis], slot),
-                                    hn::GatherIndex(d, tile_.left_centre[axis], ray)));
+      equal = hn::And(
+          equal, hn::Eq(hn::GatherIndex(d, centres[axis], slot), hn::GatherIndex(d, tile_.left_centre[axis], ray)));
     return equal;
   }
 
@@ -386,6 +386,8 @@ class ListWalk {
       }
       return;
     }
+    if constexpr (kClosest)
+      if (sure && HWY_UNLIKELY(some_repeated_) && equals_winner(tree_, slot, tile_.winner[ray])) return;
     add_pair(ray, slot);
   }
 
@@ -444,6 +446,7 @@ class ListWalk {
   }
 
   const WideTree& tree_;
+  const bool some_repeated_ = !tree_.repeated.empty();
   const RaySpan& rays_;
   ListTile& tile_;
   const ListAnswer answer_;

@@ -38,7 +38,7 @@ struct SingleRay {
   bool inward;            ///< into it
   bool careful;           ///< it has equals, around left_centre: nothing is sure of them
   float left_centre[3];
-  std::uint32_t winner;   ///< slot of the nearest sure hit, or kNoSlot
+  std::uint32_t winner;  ///< slot of the nearest sure hit, or kNoSlot
 
   HWY_INLINE void pad_offsets(float box_pad) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -156,6 +156,17 @@ class WaitingChildren {
   int count_ = 0;
 };
 
+/// Whether the sphere of this slot coincides with a ray's nearest sure hit so far, or kNoSlot. The ray meets both at
+/// the same t, so the one with the smaller id becomes the winner, or stays it, and nothing is left to decide.
+HWY_INLINE bool equals_winner(const WideTree& tree, std::uint32_t slot, std::uint32_t& winner) {
+  const WideSpheres& spheres = tree.spheres;
+  if (winner == kNoSlot || spheres.x[slot] != spheres.x[winner] || spheres.y[slot] != spheres.y[winner] ||
+      spheres.z[slot] != spheres.z[winner] || spheres.radius(slot) != spheres.radius(winner))
+    return false;
+  if (spheres.id(slot) < spheres.id(winner)) winner = slot;
+  return true;
+}
+
 /// Tests the spheres of a leaf. A sure hit becomes the winner; undecided(slot) gets each sphere that only binary64 can
 /// decide, and returns true to end the traversal. Returns true if the traversal has ended.
 template <bool kAnyHit, class Undecided>
@@ -185,7 +196,7 @@ HWY_INLINE bool test_leaf(const WideTree& tree, std::int64_t slot, std::int64_t 
       own = hn::RebindMask(d, hn::Eq(id, hn::Set(words, ray.left_id)));
     }
     auto judged = judge(met, r_squared, in_all(ray.s_best), in_all(ray.local.s_min), in_all(ray.sure_min), own,
-                              ray.inward ? own : none, ray.e, ray.width);
+                        ray.inward ? own : none, ray.e, ray.width);
     if (HWY_UNLIKELY(ray.careful)) {
       const auto equal = hn::And(hn::And(hn::Eq(hn::LoadU(d, tree.spheres.x + first), in_all(ray.left_centre[0])),
                                          hn::Eq(hn::LoadU(d, tree.spheres.y + first), in_all(ray.left_centre[1]))),
@@ -205,6 +216,9 @@ HWY_INLINE bool test_leaf(const WideTree& tree, std::int64_t slot, std::int64_t 
         ray.winner = candidate;
         if (kAnyHit) return true;
         ray.s_best = starts[k] + ray.width;
+      } else if (!kAnyHit && (sure >> k & 1) != 0 && HWY_UNLIKELY(!tree.repeated.empty()) &&
+                 equals_winner(tree, candidate, ray.winner)) {
+        continue;
       } else if (undecided(candidate)) {
         return true;
       }

@@ -80,11 +80,11 @@ WideStatistics wide_statistics(const WideTree& tree) {
   statistics.nodes = tree.node_count;
   statistics.levels = tree.levels;
   statistics.node_bytes = tree.node_count * static_cast<std::int64_t>(sizeof(WideNode));
-  statistics.other_bytes = static_cast<std::int64_t>(sizeof(WideTree) + tree.repeated.size() * sizeof(RepeatedSphere) +
-                                                     tree.repeated_filter.size() * sizeof(std::uint32_t) +
-                                                     tree.piles.size() * sizeof(Pile) +
-                                                     tree.others_in_piles.size() * sizeof(std::uint32_t)) +
-                           (tree.outer != nullptr ? tree.outer->used_bytes() : 0);
+  statistics.other_bytes =
+      static_cast<std::int64_t>(sizeof(WideTree) + tree.repeated.size() * sizeof(RepeatedSphere) +
+                                tree.repeated_filter.size() * sizeof(std::uint32_t) + tree.piles.size() * sizeof(Pile) +
+                                tree.others_in_piles.size() * sizeof(std::uint32_t)) +
+      (tree.outer != nullptr ? tree.outer->used_bytes() : 0);
   statistics.used_bytes = tree.used_bytes();
   statistics.sphere_bytes = statistics.used_bytes - statistics.node_bytes - statistics.other_bytes;
   statistics.allocated_bytes = tree.allocated_bytes();

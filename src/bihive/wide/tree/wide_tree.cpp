@@ -32,7 +32,8 @@ WideTree WideTree::image(Vec3d by) const {
 std::int64_t WideTree::allocated_bytes() const {
   return static_cast<std::int64_t>(
              sizeof(WideTree) + repeated.capacity() * sizeof(RepeatedSphere) +
-             repeated_filter.capacity() * sizeof(std::uint32_t) + piles.capacity() * sizeof(Pile) + others_in_piles.capacity() * sizeof(std::uint32_t) + node_memory.capacity() + sphere_memory.capacity()) +
+             repeated_filter.capacity() * sizeof(std::uint32_t) + piles.capacity() * sizeof(Pile) +
+             others_in_piles.capacity() * sizeof(std::uint32_t) + node_memory.capacity() + sphere_memory.capacity()) +
          (outer != nullptr ? outer->allocated_bytes() : 0);
 }
 
