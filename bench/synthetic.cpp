@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bihive/math/rng.h"
@@ -11,7 +13,6 @@ namespace bihive::bench {
 namespace {
 
 constexpr float kCornerSide = 10;
-constexpr std::int64_t kScenarioCount = 4096;
 constexpr std::uint64_t kSeed = 1;
 
 struct Spheres {
@@ -24,15 +25,6 @@ struct Spheres {
     r.push_back(radius);
   }
 };
-
-// A grid in the cube with at least `count` positions, filled from the first.
-void add_grid(Spheres& spheres, std::int64_t count, float radius) {
-  std::int64_t k = 1;
-  while (k * k * k < count) ++k;
-  const float step = (2 * kCubeHalf - 2 * radius) / static_cast<float>(k - 1);
-  const auto place = [&](std::int64_t i) { return radius - kCubeHalf + static_cast<float>(i) * step; };
-  for (std::int64_t i = 0; i < count; ++i) spheres.add(place(i % k), place(i / k % k), place(i / (k * k)), radius);
-}
 
 // Uniform in a small cube at each corner of the large one.
 void add_corners(Spheres& spheres, std::int64_t count, float radius, SplitMix64& random) {
@@ -67,28 +59,25 @@ std::int64_t uniform_count(const std::string& name) {
   return count;
 }
 
-// The spheres of a name; empty for an unknown name.
-Spheres spheres_of(const std::string& name) {
+// The spheres of a name; nothing for an unknown name.
+std::optional<SphereSet> spheres_of(const std::string& name) {
+  for (const Scenario scenario : {Scenario::grid, Scenario::corners, Scenario::mixed})
+    if (name == "s" + std::to_string(static_cast<int>(scenario))) return scenario_spheres(scenario, {}).value();
   Spheres spheres;
   SplitMix64 random(kSeed);
-  if (name == "s1") add_grid(spheres, kScenarioCount, 1);
-  if (name == "s2") add_corners(spheres, kScenarioCount, 1, random);
-  if (name == "s3") {
-    add_corners(spheres, kScenarioCount / 2, 1, random);
-    add_grid(spheres, kScenarioCount / 2, 1);
-  }
   if (name == "c1e6") add_corners(spheres, 1000000, 0.05F, random);
   if (const std::int64_t count = uniform_count(name); count > 0) add_uniform(spheres, count, random);
-  return spheres;
+  if (spheres.x.empty()) return std::nullopt;
+  return SphereSet::from_world(spheres.x, spheres.y, spheres.z, spheres.r).value();
 }
 
 }  // namespace
 
 std::optional<Scene> synthetic_scene(const std::string& name) {
-  const Spheres spheres = spheres_of(name);
-  if (spheres.x.empty()) return std::nullopt;
+  std::optional<SphereSet> spheres = spheres_of(name);
+  if (!spheres) return std::nullopt;
   Scene scene = thesis_scene_without_spheres();
-  scene.spheres = SphereSet::from_world(spheres.x, spheres.y, spheres.z, spheres.r).value();
+  scene.spheres = std::move(*spheres);
   scene.materials = {red_material()};
   scene.name = name;
   return scene;
