@@ -11,6 +11,7 @@ from ._arrays import as_array, numbers, texts
 from ._camera import Look
 from ._colours import are_texts
 from ._errors import bad_argument
+from ._links import is_table
 from ._per_sphere import ColourBy, colour_by_of
 from ._spheres import Spheres
 
@@ -33,6 +34,8 @@ def refuse_arrays(options: dict[str, Any], looks: Sequence[Look]) -> None:
     for option in _OPTIONS:
         if not _is_one_value(option, options.get(option)):
             raise _needs_memory(option)
+    if is_table(options.get("links")):
+        raise _needs_memory("links")
     if any(isinstance(look.colour_by, ColourBy) for look in looks) or colour_by_of(options.get("colour_by")) is not None:
         raise _needs_memory("colour_by")
 

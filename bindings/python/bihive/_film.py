@@ -13,6 +13,7 @@ from ._array_columns import arrays_as_columns
 from ._camera import Look, Style
 from ._checks import boolean, path_of, several
 from ._errors import MissingError, UsageError, bad_argument, found, shortened, writing
+from ._links import LinkTable
 from ._options import option, words_of
 from ._picture import Picture
 from ._progress import Bar, Progress
@@ -390,7 +391,7 @@ def film(
     count = 0
     try:
         in_all = _count_of(source, frames)
-        with Bar(progress, "filming") as bar:
+        with Bar(progress, "filming") as bar, LinkTable(of_pictures):
             for spheres in _frames_of(source, atoms, frames):
                 of_frame = dict(of_pictures)
                 spheres, named = arrays_as_columns(spheres, of_frame, given)

@@ -12,6 +12,7 @@ from ._array_columns import arrays_as_columns, refuse_arrays
 from ._camera import Look, Orthographic, Perspective, Style
 from ._checks import several
 from ._errors import InputWarning, bad_argument, found
+from ._links import LinkTable
 from ._options import ACTIONS, option, words_of
 from ._per_sphere import per_sphere
 from ._picture import Picture
@@ -135,7 +136,8 @@ def render(
         background="black", ao=True, outline=2, fog=0.3, light="studio", legend=True, view="normal", crop=(0, 0, 64, 64),
         transfer="none", bits=16, threads=2, engine="reference", replicate=(2, 2, 2)... For spheres in memory colour,
         opacity and colour_by may be arrays, as those of a Look, arrows an array of vectors, shape (n, 3), and trace_radius one
-        of radii, shape (n,). Else a tuple stands for numbers between commas.
+        of radii, shape (n,). links may be pairs of positions, shape (m, 2), or columns of them and of numbers: a dictionary,
+        or what contacts() and Tree.pairs() return. Else a tuple stands for numbers between commas.
 
     Returns a Picture: the same bits as ``bihive render``, on any number of threads. Other Python threads run meanwhile, and
     Ctrl-C ends it, the reading of a file and the building of a tree included.
@@ -157,6 +159,7 @@ def render(
     given = looks_of(looks, of_picture)
     if made is not None:
         made, given = arrays_as_columns(made, of_picture, given)
-    words = picture_words(select, camera, style, given, of_picture, None if made is None else len(made))
-    all_words: list[Union[str, bytes]] = [*words, "--", os.fsencode(path) if path is not None else "spheres"]
-    return draw(made, all_words, given, style_text(style), camera if isinstance(camera, Picture) else None, progress)
+    with LinkTable(of_picture):
+        words = picture_words(select, camera, style, given, of_picture, None if made is None else len(made))
+        all_words: list[Union[str, bytes]] = [*words, "--", os.fsencode(path) if path is not None else "spheres"]
+        return draw(made, all_words, given, style_text(style), camera if isinstance(camera, Picture) else None, progress)

@@ -134,4 +134,36 @@ Lattice::Range Lattice::images_within(double distance, Vec3d from, Vec3d to, Vec
   return range;
 }
 
+ImageCounts nearest_image(Vec3d from, Vec3d to, const Lattice& lattice) {
+  const Vec3d apart = to - from;
+  ImageCounts best{};
+  double least = dot(apart, apart);
+  // Any shift moves a point by at least the distance between planes of the lattice.
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k)
+    if (lattice.share_of_length(k) > 0) narrowest = std::min(narrowest, 1 / lattice.share_of_length(k));
+  if (4.004 * least <= narrowest * narrowest || !lattice.holds(from) || !lattice.holds(to)) return best;
+
+  // Begin with an image that is surely near.
+  const Vec3d share = lattice.shares(apart);
+  for (int k = 0; k < 3; ++k)
+    best[static_cast<std::size_t>(k)] = -static_cast<std::int64_t>(std::floor(share[k] + 0.5));
+  const Vec3d begun = apart + lattice.shift(best);
+  if (dot(begun, begun) < least)
+    least = dot(begun, begun);
+  else
+    best = {};
+  const Vec3d place = lattice.shares(to);
+  const double largest = std::max(largest_coordinate(from), largest_coordinate(to));
+  any_image(lattice.images_within(std::sqrt(least), from, place, place, largest), [&](const ImageCounts& by) {
+    const Vec3d other = apart + lattice.shift(by);
+    if (dot(other, other) < least) {
+      least = dot(other, other);
+      best = by;
+    }
+    return false;
+  });
+  return best;
+}
+
 }  // namespace bihive

@@ -90,6 +90,10 @@ class Lattice {
   double covering_ = 0, longest_ = 0, shortest_ = 0, condition_ = 1;
 };
 
+/// From one position to the nearest image of another; of equally near ones that of the fewest shifts. Positions that
+/// the lattice does not hold know no images.
+ImageCounts nearest_image(Vec3d from, Vec3d to, const Lattice& lattice);
+
 /// Calls visit(n) for the counts of the range, those near 0 first along each vector, until it returns true. Returns
 /// whether it did.
 template <class Visit>

@@ -501,6 +501,27 @@ void add_labels(Rows& rows) {
                             }}});
 }
 
+void add_link_options(Rows& rows) {
+  const auto text = [&rows](const char* id, const char* value_name, const char* help, std::string Links::*member) {
+    rows.push_back({.id = id,
+                    .value_name = value_name,
+                    .help = help,
+                    .theme = OptionTheme::spheres,
+                    .in_window = false,
+                    .take = [member](PictureRequest& request, const std::string& given) -> Status {
+                      request.links.*member = given;
+                      return Done{};
+                    }});
+  };
+  text("links", "FILE",
+       "Draw a stick for each row of a CSV file, whose columns first and second are the numbers of two spheres, from 0",
+       &Links::file);
+  text("link_radius", "R|COLUMN[:F]", "Radius of these sticks, or F times a column (a quarter of the smaller sphere's)",
+       &Links::radius);
+  text("link_colour", "COLOUR|COLUMN[:MAP][:MIN,MAX]",
+       "Colour of these sticks, or a column that colours them (their spheres')", &Links::colour);
+}
+
 Rows all_rows() {
   Rows rows;
   add_picture(rows);
@@ -511,6 +532,7 @@ Rows all_rows() {
     if (row.id != "radius_scale") rows.push_back(of_part(row, &PictureRequest::input));  // also an action
   add_spheres(rows);
   add_labels(rows);
+  add_link_options(rows);
   return rows;
 }
 
@@ -609,7 +631,7 @@ bool names_file(std::string_view id, const std::string& value) {
   if (id == "style") return !style_named(value);
   if (id == "element_colours") return !element_colours_called(value);
   if (id == "colour_by") return !colour_map_file(value).empty();
-  return id == "title_values" || id == "trajectory" || id == "font";
+  return id == "title_values" || id == "trajectory" || id == "font" || id == "links";
 }
 
 std::vector<GivenSetting> files_named_by(const PictureRequest& request) {

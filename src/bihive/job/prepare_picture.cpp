@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "bihive/base/json_text.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
+#include "bihive/base/write_file.h"
 #include "bihive/image/font_file.h"
 #include "bihive/io/frames.h"
 #include "bihive/job/choose_labels.h"
@@ -27,6 +29,7 @@
 #include "bihive/scene/bonds.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/legend.h"
+#include "bihive/scene/links.h"
 #include "bihive/scene/show_density.h"
 #include "bihive/scene/title_text.h"
 #include "bihive/scene/traces.h"
@@ -193,17 +196,21 @@ Arrows choose_arrows(const PictureRequest& request, const Scene& scene, const Wh
   return arrows;
 }
 
+// Pictures of one film would have different ranges.
+void check_fixed_range(const char* setting, const std::string& text, const Scene& scene) {
+  const Result<ColourBy> asked_for = colour_by_from_text(text);
+  if (!asked_for || asked_for->range) return;
+  for (const ColourBy& how : scene.sticks_coloured_by)
+    if (how.attribute == asked_for->attribute && how.range)
+      fail_setting(setting, " has another range in each picture of a film",
+                   "add one: " + asked_for->attribute + ":" + "MIN,MAX");
+}
+
 void draw_arrows(const Arrows& arrows, bool is_of_film, Scene& scene) {
   const Result<AddedArrows> done = add_arrows(scene, arrows);
   if (!done) fail_usage(done.error().message, done.error().hint);
   const AddedArrows& added = *done;
-  // Pictures of one film would have different ranges.
-  if (is_of_film && scene.arrows_coloured_by && scene.arrows_coloured_by->range) {
-    const Result<ColourBy> asked_for = colour_by_from_text(arrows.colour);
-    if (asked_for && !asked_for->range)
-      fail_setting("arrow_colour", " has another range in each picture of a film",
-                   "add one: " + asked_for->attribute + ":" + "MIN,MAX");
-  }
+  if (is_of_film) check_fixed_range("arrow_colour", arrows.colour, scene);
   if (is_of_film) return;
   if (added.count == 0)
     warn("no sphere has an arrow: " +
@@ -218,6 +225,35 @@ void draw_arrows(const Arrows& arrows, bool is_of_film, Scene& scene) {
                     added.longest, added.radius_of_longest, setting_name("arrow_scale")));
 }
 
+constexpr const char* kOfLinks[] = {"link_radius", "link_colour"};
+
+// Refuses what is stated about links where there are none, or where they cannot be drawn.
+void check_links(const PictureRequest& request, const WholeSet* whole) {
+  const Links& links = request.links;
+  const std::string* const stated[] = {&links.radius, &links.colour};
+  for (std::size_t i = 0; i < std::size(kOfLinks); ++i)
+    if (!links.any() && !stated[i]->empty())
+      fail_setting(kOfLinks[i], " is for pictures with links, and this one has none",
+                   "add " + setting_name("links") + " FILE");
+  if (links.any() && whole != nullptr)
+    fail_setting("links", " are not drawn between spheres that are distributed over ranks",
+                 "leave " + setting_name("links") + " out");
+}
+
+void draw_links(const Links& links, bool is_of_film, Scene& scene) {
+  const LinkTable table = value_or_fail(links_from_csv(value_or_fail(read_file(links.file)), links.file));
+  const Result<AddedLinks> added = add_links(scene, table, links);
+  if (!added) fail_usage(added.error().message, added.error().hint);
+  if (is_of_film) return check_fixed_range("link_colour", links.colour, scene);
+  if (added->count == 0)
+    warn("there is no link: " + std::string(table.pairs.empty()  ? "the table has no rows"
+                                            : added->unknown > 0 ? "their radii are unknown"
+                                                                 : "radii are 0, or a sphere of each is hidden"));
+  else if (added->unknown > 0)
+    warn(fmt::format("{} link{} not drawn: the radius is unknown", added->unknown,
+                     added->unknown == 1 ? " is" : "s are"));
+}
+
 void done_or_fail_bonds(const Status& status) {
   if (!status)
     fail_setting("bonds", ": " + status.error().message,
@@ -225,7 +261,8 @@ void done_or_fail_bonds(const Status& status) {
 }
 
 std::string without_sticks() {
-  return "with " + setting_name("bonds") + " none, without " + setting_name("arrows") + " and " + setting_name("trace");
+  return "with " + setting_name("bonds") + " none, without " + setting_name("arrows") + ", " + setting_name("trace") +
+         " and " + setting_name("links");
 }
 
 // Refuses what the GPU cannot draw.
@@ -239,7 +276,7 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (settings.adaptive_samples) refuse("adaptive samples", "with a number of them: " + setting_name("samples") + " 4");
   if (scene.plane && scene.plane->shadows_only)
     refuse("floors of shadows", "with a colour of " + setting_name("floor"));
-  if (!scene.sticks.empty()) refuse("bonds, arrows and tubes", without_sticks());
+  if (!scene.sticks.empty()) refuse("bonds, arrows, tubes and links", without_sticks());
   if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
 }
@@ -309,12 +346,14 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   const bool has_bonds = sticks.bonds != Bonds::none;
   const Arrows arrows = choose_arrows(request, input.scene, whole);
   const Traces traces = choose_traces(request, input.scene, whole);
+  check_links(request, whole);
   if (has_bonds) done_or_fail_bonds(scale_balls(input.scene, sticks));
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
   if (has_bonds) done_or_fail_bonds(find_bonds(input.scene, sticks, static_cast<int>(request.threads)));
   if (has_bonds && input.scene.sticks.empty()) warn("no two atoms are near enough for a bond");
   if (arrows.any()) draw_arrows(arrows, is_of_film, input.scene);
   if (traces.any()) draw_traces(traces, input.scene);
+  if (request.links.any()) draw_links(request.links, is_of_film, input.scene);
   RenderSettings settings = apply_options(request, input, selections, whole);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bihive/base/setting_name.h"
-#include "bihive/scene/look_text.h"
+#include "bihive/scene/stick_colours.h"
 #include "bihive/select/number_term.h"
 #include "bihive/select/selection.h"
 
@@ -19,11 +19,6 @@ namespace bihive {
 namespace {
 
 using Components = std::array<FoundAttribute, 3>;
-
-Error error_of(const char* setting, const Error& error) {
-  const std::string place = error.column > 0 ? "column " + std::to_string(error.column) + ": " : "";
-  return {setting_name(setting) + ": " + place + error.message, "", 0, 0, error.hint};
-}
 
 Result<Components> components_of(const SphereSet& spheres, const std::string& text) {
   Components found;
@@ -35,7 +30,7 @@ Result<Components> components_of(const SphereSet& spheres, const std::string& te
       return Error{setting_name("arrows") + ": expected three attributes VX,VY,VZ, found \"" + text + "\"", "", 0, 0,
                    suggestion("", attribute_names(spheres))};
     Result<FoundAttribute> one = find_numbers(spheres, name);
-    if (!one) return error_of("arrows", one.error());
+    if (!one) return error_of_setting("arrows", one.error());
     if (!one->has_numbers())
       return Error{setting_name("arrows") + ": \"" + std::string(name) + "\" holds texts, and a vector needs numbers",
                    "", 0, 0, ""};
@@ -43,31 +38,6 @@ Result<Components> components_of(const SphereSet& spheres, const std::string& te
     if (comma != std::string_view::npos) rest.remove_prefix(comma + 1);
   }
   return found;
-}
-
-// Colours of all spheres' arrows; empty: those of the spheres. `how`: by an attribute.
-Result<std::vector<Vec3f>> colours_of(const Scene& scene, const std::string& text,
-                                      const std::vector<std::uint8_t>& mask, std::optional<ColourBy>& how) {
-  if (text.empty()) return std::vector<Vec3f>();
-  const SphereSet& spheres = scene.spheres;
-  std::vector<Vec3f> colours(mask.size());
-  if (const Result<ColourChoice> choice = colour_choice_from_text(text); choice) {
-    if (find_attribute(spheres, text).found())
-      return Error{setting_name("arrow_colour") + ": \"" + text + "\" is a colour and an attribute", "", 0, 0,
-                   "write the colour as #rrggbb, or a map after the attribute: " + text + ":viridis"};
-    const Result<Vec3f> colour = linear_colour(*choice, scene.picture.transfer);
-    if (!colour) return error_of("arrow_colour", colour.error());
-    std::fill(colours.begin(), colours.end(), *colour);
-    return colours;
-  }
-  const Result<ColourBy> asked_for = colour_by_from_text(text);
-  if (!asked_for) return error_of("arrow_colour", asked_for.error());
-  if (const Result<FoundAttribute> found = find_numbers(spheres, asked_for->attribute); !found)
-    return error_of("arrow_colour", {"no colour, and " + found.error().message, "", 0, 0, found.error().hint});
-  Result<ColourBy> done = colour_by(spheres, *asked_for, mask, scene.picture.transfer, colours, scene.element_colours);
-  if (!done) return error_of("arrow_colour", done.error());
-  how = std::move(*done);
-  return colours;
 }
 
 // `shaft`: its radius.
@@ -98,11 +68,11 @@ Result<AddedArrows> add_arrows(Scene& scene, const Arrows& arrows) {
   std::vector<std::uint8_t> mask(static_cast<std::size_t>(spheres.size()), 1);
   if (!arrows.select.empty()) {
     Result<std::vector<std::uint8_t>> selected = select_spheres(spheres, arrows.select);
-    if (!selected) return error_of("arrow_select", selected.error());
+    if (!selected) return error_of_setting("arrow_select", selected.error());
     mask = std::move(*selected);
   }
   std::optional<ColourBy> how;
-  const Result<std::vector<Vec3f>> colours = colours_of(scene, arrows.colour, mask, how);
+  const Result<std::vector<Vec3f>> colours = stick_colours(spheres, scene, "arrow_colour", arrows.colour, mask, how);
   if (!colours) return colours.error();
 
   AddedArrows added;
@@ -135,9 +105,9 @@ Result<AddedArrows> add_arrows(Scene& scene, const Arrows& arrows) {
       added.radius_of_longest = of_sphere;
     }
   }
-  if (Status status = scene.sticks.add(spheres, sticks); !status) return error_of("arrows", status.error());
+  if (Status status = scene.sticks.add(spheres, sticks); !status) return error_of_setting("arrows", status.error());
   if (Status status = check_sticks(scene); !status) return status.error();
-  if (added.count > 0) scene.arrows_coloured_by = std::move(how);
+  if (added.count > 0 && how) scene.sticks_coloured_by.push_back(std::move(*how));
   return added;
 }
 

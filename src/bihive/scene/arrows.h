@@ -22,7 +22,7 @@ constexpr double kArrowHeadRadius = 2.2;
 constexpr double kArrowHeadLength = 5;
 
 /// Adds to Scene::sticks an arrow for each selected sphere whose vector is not 0: a shaft, and a head that ends in a
-/// point. They belong to their sphere. Sets Scene::arrows_coloured_by to how attributes colour them. Errors: a
+/// point. They belong to their sphere. Adds to Scene::sticks_coloured_by how attributes colour them. Errors: a
 /// component that is no attribute (with what there is), a selection's, a colour that is neither colour nor attribute,
 /// or both; a sphere of radius 0 where Arrows::radius is infinite; as StickSet::add() and check_sticks().
 Result<AddedArrows> add_arrows(Scene& scene, const Arrows& arrows);

@@ -186,13 +186,12 @@ LegendKey key_of_names(const Scene& scene) {
   return key;
 }
 
-// The map of arrows, unless it is that of spheres. Categories are named by the spheres alone.
-std::optional<LegendKey> key_of_arrows(const Scene& scene, const std::vector<LegendKey>& keys) {
-  const std::optional<ColourBy>& how = scene.arrows_coloured_by;
-  if (!how || !how->range) return std::nullopt;
+// The map of arrows or links, unless it is that of spheres. Categories are named by the spheres alone.
+std::optional<LegendKey> key_of_sticks(const ColourBy& how, const std::vector<LegendKey>& keys) {
+  if (!how.range) return std::nullopt;
   LegendKey key;
-  key.title = how->title.empty() ? how->attribute : how->title;
-  key.scale = {how->map.value_or(ColourMap()), *how->range, how->logarithmic};
+  key.title = how.title.empty() ? how.attribute : how.title;
+  key.scale = {how.map.value_or(ColourMap()), *how.range, how.logarithmic};
   const bool is_said = std::any_of(keys.begin(), keys.end(), [&](const LegendKey& other) {
     return other.title == key.title && other.scale && other.scale->map == key.scale->map &&
            other.scale->range == key.scale->range && other.scale->logarithmic == key.scale->logarithmic;
@@ -213,7 +212,8 @@ std::vector<LegendKey> legend_of(const Scene& scene) {
   std::vector<LegendKey> keys;
   for (const KeyCollector& collector : joined) keys.push_back(collector.key());
   if (LegendKey names = key_of_names(scene); !names.entries.empty()) keys.push_back(std::move(names));
-  if (std::optional<LegendKey> of_arrows = key_of_arrows(scene, keys)) keys.push_back(std::move(*of_arrows));
+  for (const ColourBy& how : scene.sticks_coloured_by)
+    if (std::optional<LegendKey> of_sticks = key_of_sticks(how, keys)) keys.push_back(std::move(*of_sticks));
   return keys;
 }
 

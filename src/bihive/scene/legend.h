@@ -33,9 +33,9 @@ struct LegendKey {
 };
 
 /// A key for each attribute that colours at least one sphere, in the order of Scene::coloured_by, then one with the
-/// names of selections (Scene::legend_names), then the scale of arrows (Scene::arrows_coloured_by). Two keys of one
-/// attribute whose categories have the same colours are one. Categories are those of the present spheres: elements and
-/// numbers from low to high, texts in the input's order. Costs a pass over all spheres.
+/// names of selections (Scene::legend_names), then the scales of arrows and links (Scene::sticks_coloured_by). Two keys
+/// of one attribute whose categories have the same colours are one. Categories are those of the present spheres:
+/// elements and numbers from low to high, texts in the input's order. Costs a pass over all spheres.
 std::vector<LegendKey> legend_of(const Scene& scene);
 
 /// The same with the title of the labels, which is that of the last key with a title.

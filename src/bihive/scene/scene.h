@@ -60,8 +60,8 @@ struct Scene {
   /// the first of `coloured_by`, if there is one.
   std::vector<std::int32_t> coloured_by_of_sphere;
   std::vector<std::string> legend_names;  ///< of coloured selections
-  /// The meaning of the colours of arrows (scene/arrows.h), as returned by colour_by(); unset: they have none.
-  std::optional<ColourBy> arrows_coloured_by;
+  /// The meaning of the colours of arrows (scene/arrows.h) and links (scene/links.h), as returned by colour_by().
+  std::vector<ColourBy> sticks_coloured_by;
   /// What colour_by() gives elements: linear RGB by atomic number, 0: unknown. Empty: element_colour() (palette.h).
   std::vector<Vec3f> element_colours;
   std::string length_unit;  ///< of the input's format ("Å"); empty: unknown
