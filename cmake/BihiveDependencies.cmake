@@ -161,6 +161,7 @@ if(BIHIVE_BUILD_CLI)
   list(APPEND BIHIVE_CLI_DEPENDENCIES CLI11::CLI11 ZLIB::ZLIB fmt::fmt nlohmann_json::nlohmann_json)
 endif()
 if(BIHIVE_BUILD_TESTS)
+  bihive_require_header(boost/multiprecision/cpp_bin_float.hpp libboost-dev)
   find_package(GTest QUIET)
   if(NOT TARGET GTest::gmock_main)
     message(FATAL_ERROR "GoogleTest was not found. On Debian or Ubuntu: apt-get install libgtest-dev libgmock-dev, "

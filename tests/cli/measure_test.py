@@ -2,6 +2,7 @@
 
 import csv
 import math
+import os
 
 from program import ProgramTest, main
 
@@ -46,6 +47,16 @@ class Measure(ProgramTest):
         self.assertEqual({row["radius"] for row in rows}, {"1.25"})
         self.assertAlmostEqual(float(rows[2]["area"]), BALL * 1.5625, places=12)
         self.assertEqual(float(rows[3]["area"]), 0)
+
+    def test_progress(self):
+        """As programs read it: the finished share."""
+        rows = "".join(f"{x},{y},{z},0.6\n" for x in range(30) for y in range(30) for z in range(30))
+        self.write("large.csv", "x,y,z,r\n" + rows)
+        done = self.run_bihive("measure", "large.csv", env={**os.environ, "BIHIVE_PROGRESS": "shares"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        shares = [float(line.split()[-1]) for line in done.stderr.splitlines() if "progress: measuring " in line]
+        self.assertTrue(shares)
+        self.assertTrue(all(0 <= share <= 1 for share in shares))
 
     def areas_in(self, name, column):
         with open(self.path(name), encoding="utf-8") as file:

@@ -1,5 +1,6 @@
 """The table of parameters: what is generated from it is up to date, and each parameter works in every front end."""
 
+import itertools
 import json
 import os
 import subprocess
@@ -41,6 +42,9 @@ class Table(ProgramTest):
         size = ["--size", "48x36", "--samples", "1", "--projection", "orthographic"]
         with open(self.path("spheres.csv"), "w") as file:
             file.write("x,y,z,r,mol\n0,0,0,1,1\n1,0,-3,1,1\n0,1,1,0.5,1\n")
+        with open(self.path("hollow.csv"), "w") as file:
+            places = [p for p in itertools.product((-1, 0, 1), repeat=3) if any(p)]
+            file.write("x,y,z,r\n" + "".join(f"{x},{y},{z},0.5\n" for x, y, z in places))
         with open(self.path("atoms.xyz"), "w") as file:
             file.write("3\n\nC 0 0 0\nO 1.2 0 0\nH -0.6 0.9 0\n")
         for row in self.table():
@@ -48,14 +52,14 @@ class Table(ProgramTest):
                 continue
             with self.subTest(row["id"]):
                 value = {"bond_reach": 1.4, "arrows": "x,y,r", "arrow_select": "index 1", "arrow_colour": "x:magma", "trace_select": "index 0 2",
-                         "trace_radius": "r/2", "trace_atoms": "shown"}.get(row["id"]) or values[row["kind"]](row)
+                         "trace_radius": "r/2", "trace_atoms": "shown", "show_cavities": 0.25}.get(row["id"]) or values[row["kind"]](row)
                 whole, _, key = row["path"].partition(".")
                 picture = {whole: {key: value} if key else {} if whole == "ambient_occlusion" else value}
                 # A part of something whose presence has a number of its own is set with it.
                 extra = {"fog": ["--fog", "0.5"], "outline": ["--outline", "1", "--line-unit", "px"]}.get(whole, []) if key and row["id"] not in ("fog",) else []
                 # Bonds are between atoms, and what is theirs is set with them.
                 of_bonds = row["id"] in ("bonds", "bond_reach", "stick_radius", "ball_scale")
-                spheres = self.path("atoms.xyz" if of_bonds else "spheres.csv")
+                spheres = self.path("atoms.xyz" if of_bonds else "hollow.csv" if row["id"] == "show_cavities" else "spheres.csv")
                 if of_bonds and row["id"] != "bonds":
                     picture["bonds"] = "distance"
                     extra = ["--bonds", "distance"]

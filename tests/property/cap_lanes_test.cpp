@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -39,9 +41,48 @@ int first_of(const std::vector<CapNumbers>& caps, int from, const Test& test) {
   return i;
 }
 
+int widest_of(const std::vector<CapNumbers>& caps, const CapNumbers& cap) {
+  int widest = static_cast<int>(caps.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < static_cast<int>(caps.size()); ++i) {
+    const CapNumbers& other = caps[static_cast<std::size_t>(i)];
+    const auto [g, d] = CirclePair::of(other, cap);
+    const double cosine = other.c - g * cap.c, square = cosine * std::abs(cosine) / ((1 - g) * (1 + g));
+    if (!(d > kDoubt) || !(square < least)) continue;
+    least = square;
+    widest = i;
+  }
+  return widest;
+}
+
+// By the definition: the arc from the middle of what it covers to its end.
+TEST(CapLanes, TheWidestCrossingCoversTheLongestArc) {
+  SplitMix64 rng(8);
+  for (int scene = 0; scene < 100; ++scene) {
+    const CapNumbers cap{{0, 0, 1}, 0.6, 0.8};
+    std::vector<CapNumbers> caps;
+    for (int i = 0; i < 9; ++i) caps.push_back(random_cap(rng));
+    const int widest = widest_of(caps, cap);
+    // Points of the circle that a cap covers, of 3,600.
+    const auto covered = [&](const CapNumbers& other) {
+      int count = 0;
+      for (int n = 0; n < 3600; ++n) {
+        const double angle = 3.14159265358979323846 * n / 1800;
+        count += dot(Vec3d{0.8 * std::cos(angle), 0.8 * std::sin(angle), 0.6}, other.axis) > other.c ? 1 : 0;
+      }
+      return count;
+    };
+    for (const CapNumbers& other : caps)
+      if (CirclePair::of(other, cap).d > kDoubt) {
+        ASSERT_LT(widest, 9);
+        EXPECT_LE(covered(other), covered(caps[static_cast<std::size_t>(widest)]) + 2);
+      }
+  }
+}
+
 TEST(CapLanes, FindWhatPlainLoopsFind) {
   SplitMix64 rng(7);
-  int found = 0;
+  int found = 0, held = 0;
   for (int scene = 0; scene < 400; ++scene) {
     std::vector<CapNumbers> caps(static_cast<std::size_t>(40 * rng.next_double()));
     CapArrays arrays;
@@ -67,19 +108,33 @@ TEST(CapLanes, FindWhatPlainLoopsFind) {
           return !(d > kDoubt || apart);
         });
         ASSERT_EQ(first_unclear(arrays, from, cap, kDoubt), unclear) << target;
-        const int crossing =
-            first_of(caps, from, [&](const CapNumbers& other) { return CirclePair::of(other, cap).d > kDoubt; });
-        ASSERT_EQ(first_crossing(arrays, from, cap, kDoubt), crossing) << target;
         const int holding = first_of(caps, from, [&](const CapNumbers& other) {
           return dot(a, other.axis) - other.c >= -kDoubt || dot(b, other.axis) - other.c >= -kDoubt;
         });
         ASSERT_EQ(first_holding(arrays, from, a, b, kDoubt), holding) << target;
-        found += (unclear < arrays.size()) + (crossing < arrays.size()) + (holding < arrays.size());
+        found += (unclear < arrays.size()) + (holding < arrays.size());
       }
+      const int widest = widest_of(caps, cap);
+      ASSERT_EQ(widest_crossing(arrays, cap, kDoubt), widest) << target;
+      found += widest < arrays.size() ? 1 : 0;
+      // Points that some caps hold.
+      const Vec3d middle = normalized(a + b);
+      const auto crosses_and_holds = [&](const CapNumbers& other, Vec3d point) {
+        return CirclePair::of(other, cap).d > kDoubt && dot(point, other.axis) - other.c > kDoubt &&
+               dot(middle, other.axis) - other.c > kDoubt;
+      };
+      const auto any_holds = [&](Vec3d point) {
+        return std::any_of(caps.begin(), caps.end(),
+                           [&](const CapNumbers& other) { return crosses_and_holds(other, point); });
+      };
+      const bool halves = any_holds(a) && any_holds(b);
+      ASSERT_EQ(hold_halves(arrays, cap, kDoubt, a, middle, b, kDoubt), halves) << target;
+      held += halves ? 1 : 0;
     }
     ASSERT_TRUE(use_target("").ok());
   }
   EXPECT_GT(found, 1000);
+  EXPECT_GT(held, 20);
 }
 
 TEST(CapLanes, MeasuresDoNotDependOnTheInstructionSet) {

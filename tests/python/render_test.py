@@ -576,6 +576,7 @@ class Interrupts(ProgramTest):
             lambda progress: bh.read(path, progress=progress),
             lambda progress: bh.Tree(s, threads=1, progress=progress),
             lambda progress: bh.Tree(s, engine="reference", progress=progress),
+            lambda progress: bh.measure(s, progress=progress),
             lambda progress: tree.update(xyz + 0.1, progress=progress),
         ]:
             with self.assertRaises(Enough):

@@ -1,6 +1,7 @@
 // Small sets of balls for tests of measures: few balls at few coordinates with few radii.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "bihive/math/rng.h"
@@ -34,6 +35,33 @@ inline measure::Balls hostile_balls(SplitMix64& rng, int kind) {
         balls.radius.push_back(kRadii[static_cast<int>(below(7))] / 16);
       }
     }
+  }
+  return balls;
+}
+
+/// Eight balls around a middle that they close to a hollow, to a point or wholly, or leave open: their centres are the
+/// corners of a box of sides 4, 4 and 2, so that spheres of radius 3 all meet in its middle.
+inline measure::Balls enclosing_balls(SplitMix64& rng) {
+  constexpr double kUnit = 0.125;
+  measure::Balls balls;
+  const auto flat = static_cast<int>(rng.next_below(3));
+  const double common = 2.75 + 0.25 * static_cast<double>(rng.next_below(3));
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3d centre;
+    for (int axis = 0; axis < 3; ++axis) centre[axis] = (corner >> axis & 1 ? 1 : -1) * (axis == flat ? 1 : 2) * kUnit;
+    balls.centre.push_back(centre);
+    const bool is_usual = rng.next_below(4) != 0;
+    balls.radius.push_back((is_usual ? common : 2.5 + 0.25 * static_cast<double>(rng.next_below(4))) * kUnit);
+  }
+  return balls;
+}
+
+/// Centres in a cube of side 1, radii of up to this many octaves.
+inline measure::Balls random_balls(SplitMix64& rng, int count, double octaves) {
+  measure::Balls balls;
+  for (int i = 0; i < count; ++i) {
+    balls.centre.push_back({rng.next_double() - 0.5, rng.next_double() - 0.5, rng.next_double() - 0.5});
+    balls.radius.push_back(0.5 * std::exp2(-octaves * rng.next_double()));
   }
   return balls;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/watch.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/selection.h"
@@ -164,6 +165,14 @@ std::string text_of(const Report& report) {
   return text;
 }
 
+// Shows the progress of a call that is watched (base/watch.h).
+template <class Call>
+auto with_progress(const char* what, const Call& call) {
+  Progress progress(what);
+  const Watch watch([&](double done) { progress.update(done); });
+  return call();
+}
+
 void check_usage(const MeasureCommandOptions& options) {
   refuse_copies(options.input, "bihive measure takes the stored spheres");
   if (options.json && on_standard_output(outputs_of(options)))
@@ -208,7 +217,7 @@ void run_measure(const MeasureCommandOptions& options) {
   measure.cavities = true;
   measure.sphere_volumes = !options.per_sphere.empty();
   measure.contacts = !options.contacts.empty();
-  report.measures = value_or_fail(measure_union(spheres, measure));
+  report.measures = value_or_fail(with_progress("measuring", [&] { return measure_union(spheres, measure); }));
   const UnionMeasures& measures = report.measures;
   if (measures.undecided_spheres > 0)
     warn("the pieces of " + grouped(measures.undecided_spheres) +
@@ -221,7 +230,8 @@ void run_measure(const MeasureCommandOptions& options) {
   }
   if (groups) {
     report.groups = groups->names;
-    report.buried = value_or_fail(buried_areas(spheres, groups->group_of_sphere, measure));
+    report.buried = value_or_fail(
+        with_progress("comparing groups", [&] { return buried_areas(spheres, groups->group_of_sphere, measure); }));
   }
 
   std::vector<std::string> tables;

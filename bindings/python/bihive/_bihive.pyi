@@ -178,7 +178,14 @@ def spheres_from_arrays(
 def read(words: Sequence[Union[str, bytes]], progress: Optional[Callable[[float], None]]) -> Spheres: ...
 def reading_settings() -> list[str]: ...
 def union_measures(
-    spheres: Spheres, probe: float, mask: Optional[_Array], periodic: bool, whole: bool, derivatives: bool, threads: int
+    spheres: Spheres,
+    probe: float,
+    mask: Optional[_Array],
+    periodic: bool,
+    whole: bool,
+    derivatives: bool,
+    threads: int,
+    progress: Optional[Callable[[float], None]],
 ) -> dict[str, Any]: ...
 def contacts(
     spheres: Spheres, probe: float, mask: Optional[_Array], periodic: bool, threads: int

@@ -82,6 +82,7 @@ class RenderOptions(ReadOptions, total=False):
     trace_select: Optional[str]  # The beads of tubes (CA and P, or all where there are none)
     trace_radius: Optional[Union[Union[float, str], npt.ArrayLike]]  # Radius of tubes in world units: a number, an attribute, or arithmetic: b_factor/50 (a quarter of the bead's)
     trace_atoms: Optional[Literal["hidden", "shown"]]  # Whether the spheres of traced residues are drawn too (hidden)
+    show_cavities: Optional[float]  # In place of the spheres draw the walls of the cavities that they enclose, where a probe of this radius can be (docs/measures.md) (none)
     exposure: Optional[float]  # Stops: all light times 2^EV; the background keeps its colour (the style's)
     tone: Optional[Literal["none", "soft", "filmic"]]  # Curve for light that is too bright for the picture (the style's)
     view_from: Optional[str]  # Show the whole set from this side (files: front); principal: its longest axis along the picture's longer side; best: the direction that shows most of a selection

@@ -11,6 +11,7 @@ from . import _bihive
 from ._arrays import one_each, whole_numbers
 from ._checks import boolean, several
 from ._errors import InputWarning, bad_argument, found
+from ._progress import Bar, Progress
 from ._select import chosen
 from ._spheres import Spheres
 
@@ -82,6 +83,7 @@ def measure(
     periodic: bool = False,
     derivatives: bool = False,
     threads: int = 0,
+    progress: Progress = None,
 ) -> Measures:
     """Exact area and volume of the union of the spheres (docs/measures.md).
 
@@ -89,13 +91,14 @@ def measure(
     an expression, a mask of shape (n,), or positions. periodic: the spheres repeat along their cell. derivatives: compute them too.
     threads: 0 as many as the machine runs at once; the answer does not depend on it.
 
-    Other Python threads run meanwhile, and Ctrl-C ends it.
+    progress: as of render(). Other Python threads run meanwhile, and Ctrl-C ends it.
 
     >>> round(measure(read("demo"), probe=1.4).area)
     9732
     """
     core, radius, mask, repeats, at_once = _checked(spheres, probe, select, periodic, threads)
-    made = _bihive.union_measures(core, radius, mask, repeats, True, boolean("derivatives", derivatives), at_once)
+    with Bar(progress, "measuring") as bar:
+        made = _bihive.union_measures(core, radius, mask, repeats, True, boolean("derivatives", derivatives), at_once, bar)
     undecided = made.pop("undecided")
     if undecided > 0:
         text = f"the pieces of {undecided} spheres could not be told apart: cavities and components may be wrong"
@@ -184,7 +187,7 @@ def buried_area(
 def _of_union(spheres: Any, probe: Any, select: Any, periodic: Any) -> dict[str, Any]:
     """Without cavities and volumes of single spheres."""
     core, radius, mask, repeats, at_once = _checked(spheres, probe, select, periodic, 0)
-    return _bihive.union_measures(core, radius, mask, repeats, False, False, at_once)
+    return _bihive.union_measures(core, radius, mask, repeats, False, False, at_once, None)
 
 
 def _checked(spheres: Any, probe: Any, select: Any, periodic: Any, threads: Any) -> tuple[_bihive.Spheres, float, Any, bool, int]:

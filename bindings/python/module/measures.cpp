@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "bihive/base/watch.h"
 #include "bihive/measure/buried_area.h"
 #include "bihive/measure/union_measures.h"
 #include "errors.h"
@@ -65,12 +66,16 @@ py::list ids_from(std::vector<Row>& rows) {
 // By the names of the fields of bihive.Measures; "undecided" is the number of undecided spheres. Without `whole`,
 // cavities and volumes of single spheres, which take longer than all the rest, are left empty.
 py::dict union_measures(const Spheres& spheres, double probe, const Mask& mask, bool periodic, bool whole,
-                        bool derivatives, int threads) {
+                        bool derivatives, int threads, const py::object& progress) {
   MeasureOptions options = options_of(probe, mask, periodic, threads);
   options.cavities = options.sphere_volumes = whole;
   options.derivatives = derivatives;
   UnionMeasures measures;
-  wait_for([&](Work&) { measures = value_of(measure_union(spheres.file.spheres, options)); }, py::none());
+  const auto work = [&](Work& work_done) {
+    const Watch watch(work_done.between(0, 1), &work_done.cancel);
+    measures = value_of(measure_union(spheres.file.spheres, options));
+  };
+  wait_for(work, progress);
   py::dict made;
   made["area"] = measures.area;
   made["volume"] = measures.volume;

@@ -97,6 +97,8 @@ class GlRenderer::Implementation {
   Status set_scene(const Scene& scene, const Tree* tree) {
     if (has_clips(scene))
       return Error{"the graphics processor draws no cut spheres", "", 0, 0, "choose an engine of the CPU"};
+    if (scene.cavity_walls != nullptr)
+      return Error{"the graphics processor draws no walls of cavities", "", 0, 0, "choose an engine of the CPU"};
     if (scene.plane && scene.plane->shadows_only)
       return Error{"the graphics processor draws no plane that shows shadows alone", "", 0, 0,
                    "choose an engine of the CPU"};

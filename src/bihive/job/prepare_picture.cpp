@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,7 @@
 #include "bihive/render/stereo.h"
 #include "bihive/scene/arrows.h"
 #include "bihive/scene/bonds.h"
+#include "bihive/scene/cavities.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/legend.h"
 #include "bihive/scene/links.h"
@@ -181,6 +183,26 @@ void draw_traces(const Traces& traces, Scene& scene) {
   if (added->tubes == 0) warn("there is no tube: no two beads in a row are near each other");
 }
 
+// The probe of the cavities that scene and user ask for; infinite: none.
+double choose_cavities(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
+  PictureSettings picture = scene.picture;
+  request.picture.apply_to(picture);
+  if (picture.shows_cavities() && whole != nullptr)
+    fail_setting("show_cavities", " needs all spheres in one place, and they are distributed over ranks",
+                 "leave " + setting_name("show_cavities") + " out");
+  return picture.cavity_probe;
+}
+
+void draw_cavities(double probe, const PictureRequest& request, bool is_of_film, Scene& scene) {
+  const Result<ShownCavities> shown = show_cavities(scene, probe, static_cast<int>(request.threads));
+  if (!shown) fail_setting("show_cavities", ": " + shown.error().message, shown.error().hint);
+  if (shown->undecided_spheres > 0)
+    warn("the pieces of " + grouped(shown->undecided_spheres) +
+         " spheres could not be told apart: cavities may be wrong");
+  if (shown->cavities == 0 && !is_of_film)
+    warn(fmt::format("there is no cavity for a probe of radius {}, and nothing to be seen", probe));
+}
+
 // The arrows that scene and user ask for.
 Arrows choose_arrows(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
   PictureSettings picture = scene.picture;
@@ -278,6 +300,7 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
     refuse("floors of shadows", "with a colour of " + setting_name("floor"));
   if (!scene.sticks.empty()) refuse("bonds, arrows, tubes and links", without_sticks());
   if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
+  if (scene.cavity_walls != nullptr) refuse("walls of cavities", "without " + setting_name("show_cavities"));
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
 }
 
@@ -344,6 +367,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   const CameraSelections selections = is_of_film ? CameraSelections() : CameraSelections(request, input.scene.spheres);
   const Sticks sticks = choose_sticks(request, input.scene, whole);
   const bool has_bonds = sticks.bonds != Bonds::none;
+  const double cavity_probe = choose_cavities(request, input.scene, whole);
   const Arrows arrows = choose_arrows(request, input.scene, whole);
   const Traces traces = choose_traces(request, input.scene, whole);
   check_links(request, whole);
@@ -354,6 +378,8 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (arrows.any()) draw_arrows(arrows, is_of_film, input.scene);
   if (traces.any()) draw_traces(traces, input.scene);
   if (request.links.any()) draw_links(request.links, is_of_film, input.scene);
+  const bool has_cavities = std::isfinite(cavity_probe);
+  if (has_cavities) draw_cavities(cavity_probe, request, is_of_film, input.scene);
   RenderSettings settings = apply_options(request, input, selections, whole);
   if (shows_reference_tree(settings.view) && has_clips(input.scene))
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",
@@ -361,6 +387,9 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (shows_reference_tree(settings.view) && input.scene.spheres.has_images())
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of the stored spheres",
                  "leave out " + setting_name("replicate"));
+  if (shows_reference_tree(settings.view) && has_cavities)
+    fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of whole spheres",
+                 "leave out " + setting_name("show_cavities"));
   if (shows_reference_tree(settings.view) && !input.scene.sticks.empty())
     fail_setting("view", " " + name_of(kViews, settings.view) + " shows the tree of the spheres",
                  "draw it " + without_sticks());
@@ -370,8 +399,8 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   if (whole == nullptr) {
     if (const std::string shared = shared_colours(input.scene); !shared.empty()) warn(shared);
     if (const std::string unknown = unknown_numbers(input.scene); !unknown.empty()) warn(unknown);
-    if (const std::string why = why_empty(input.scene, settings); !why.empty()) warn(why);
-    if ((request.eye || request.fit) && !is_of_film)
+    if (const std::string why = why_empty(input.scene, settings); !why.empty() && !has_cavities) warn(why);
+    if ((request.eye || request.fit) && !is_of_film && !has_cavities)
       if (const std::string dark = dark_insides(input.scene, settings); !dark.empty()) warn(dark);
     if (settings.labels.legend)
       if (const std::string equal = equal_colours(input.scene); !equal.empty()) warn(equal);

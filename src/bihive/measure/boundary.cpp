@@ -20,6 +20,11 @@ constexpr std::int64_t kBlock = 1 << 13;
 // A thread takes this many spheres at once.
 constexpr std::int64_t kChunk = 64;
 
+// A multiple of 2^-160.
+double on_grid(double x) {
+  return x >= 0x1p-100 ? x : std::ldexp(std::floor(std::ldexp(x, 160)), -160);
+}
+
 std::int64_t chunks_of(std::int64_t count) {
   return (count + kChunk - 1) / kChunk;
 }
@@ -75,8 +80,11 @@ class Chunk {
   void take_pieces(std::int64_t i) {
     Pieces& own = boundary_.pieces[number_];
     const std::size_t known = own.junctions.size();
-    own.undecided_spheres += sphere_.append_pieces(own.pieces, own.junctions) ? 0 : 1;
+    PieceArcs arcs;
+    PieceArcs* const wanted = boundary_.arcs.empty() ? nullptr : &arcs;
+    own.undecided_spheres += sphere_.append_pieces(own.pieces, own.junctions, wanted) ? 0 : 1;
     own.owner.resize(own.pieces.size(), i);
+    if (!arcs.arcs.empty()) boundary_.arcs[number_].push_back({i, std::move(arcs)});
     if (!counted_.balls.is_periodic()) return;
     // Move each junction so that its first ball is in the cell.
     for (std::size_t n = known; n < own.junctions.size(); ++n) {
@@ -188,6 +196,20 @@ Status measure_by_tree(const Counted& counted, const SphereSet& set, int threads
 
 }  // namespace
 
+Counted counted_spheres(const SphereSet& set, double probe, const std::uint8_t* mask) {
+  Counted counted;
+  counted.probe = probe;
+  for (std::int64_t id = 0; id < set.size(); ++id) {
+    if (mask != nullptr && mask[id] == 0) continue;
+    const double radius = on_grid(set.stored_radius(id) + probe);
+    if (radius == 0) continue;
+    counted.ids.push_back(id);
+    counted.balls.centre.push_back(set.stored_centre(id));
+    counted.balls.radius.push_back(radius);
+  }
+  return counted;
+}
+
 Result<Boundary> boundary_of(const Counted& counted, const SphereSet& set, const Wanted& wanted, int threads) {
   Boundary boundary;
   boundary.parts.resize(static_cast<std::size_t>(counted.size()));
@@ -196,6 +218,7 @@ Result<Boundary> boundary_of(const Counted& counted, const SphereSet& set, const
   if (wanted.cells || wanted.facets) boundary.cells.resize(boundary.parts.size());
   if (wanted.facets) boundary.facets.resize(chunks);
   if (wanted.pieces) boundary.pieces.resize(chunks);
+  if (wanted.arcs) boundary.arcs.resize(chunks);
   if (wanted.changes) boundary.changes.resize(chunks);
   if (wanted.pieces && counted.balls.is_periodic()) boundary.links.resize(chunks);
   const std::optional<NeighbourGrid> grid = NeighbourGrid::of(counted.balls);

@@ -36,18 +36,28 @@ struct Link {
   std::int64_t i, j;
 };
 
+struct OwnedArcs {
+  std::int64_t ball;
+  PieceArcs arcs;
+};
+
 struct Boundary {
   std::vector<ExposedPart> parts;
   std::vector<PowerCell> cells;                  ///< of each ball, or none
   std::vector<std::vector<OwnedFacet>> facets;   ///< each pair of balls once, or none; chunk by chunk
   std::vector<std::vector<AreaChange>> changes;  ///< or none; chunk by chunk, images as their balls
   std::vector<Pieces> pieces;                    ///< or none; chunk by chunk
+  std::vector<std::vector<OwnedArcs>> arcs;      ///< of balls with several pieces, or none; chunk by chunk
   std::vector<std::vector<Link>> links;          ///< the same, of periodic sets
 };
 
 struct Wanted {
   bool cells = false, facets = false, pieces = false, changes = false;
+  bool arcs = false;  ///< with pieces
 };
+
+/// `probe` in stored units. `mask`: a byte for each sphere, 0 leaves it out; null: none.
+Counted counted_spheres(const SphereSet& set, double probe, const std::uint8_t* mask);
 
 /// Errors: not enough memory for a tree, and what base/watch.h throws.
 Result<Boundary> boundary_of(const Counted& counted, const SphereSet& set, const Wanted& wanted, int threads);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "bihive/simd/dispatch.h"
 #include "bihive/simd/wasm_float64-inl.h"
@@ -75,14 +76,60 @@ int unclear_on_target(const CapArrays& caps, int from, const CapNumbers& cap, do
   });
 }
 
-int crossing_on_target(const CapArrays& caps, int from, const CapNumbers& cap, double doubt) {
+// Half of the arc that a cap q covers on the circle of `cap` has the cosine (c_q - g c) / sqrt(1 - g^2) / s: its
+// square, with its sign, is compared.
+int widest_on_target(const CapArrays& caps, const CapNumbers& cap, double doubt) {
   const DoubleTag d;
   const BesideOne one(cap);
-  const Doubles above = hn::Set(d, doubt);
-  return first_lane(from, caps.size(), [&](int i) HWY_ATTR {
+  const Doubles above = hn::Set(d, doubt), unit = hn::Set(d, 1);
+  const Doubles none = hn::Set(d, std::numeric_limits<double>::infinity());
+  Doubles least = none, index = hn::Iota(d, 0), index_of_least = hn::Set(d, caps.size());
+  for (int i = 0; i < caps.size(); i += kDoubles) {
+    const Doubles c = hn::LoadU(d, caps[3] + i), s = hn::LoadU(d, caps[4] + i);
+    const Doubles g = dot_lanes(caps, i, one.x, one.y, one.z);
+    const Doubles t = hn::Sub(g, hn::Mul(c, one.c)), product = hn::Mul(s, one.s);
+    const Doubles crossing = hn::Sub(hn::Mul(product, product), hn::Mul(t, t));
+    const Doubles cosine = hn::Sub(c, hn::Mul(g, one.c));
+    const Doubles signed_square =
+        hn::Div(hn::Mul(cosine, hn::Abs(cosine)), hn::Mul(hn::Sub(unit, g), hn::Add(unit, g)));
+    const DoubleMask better = hn::And(hn::Gt(crossing, above), hn::Lt(signed_square, least));
+    least = hn::IfThenElse(better, signed_square, least);
+    index_of_least = hn::IfThenElse(better, index, index_of_least);
+    index = hn::Add(index, hn::Set(d, kDoubles));
+  }
+  alignas(64) double squares[kDoubles], indices[kDoubles];
+  hn::Store(least, d, squares);
+  hn::Store(index_of_least, d, indices);
+  double best = std::numeric_limits<double>::infinity();
+  int found = caps.size();
+  for (int lane = 0; lane < kDoubles; ++lane) {
+    const int at = static_cast<int>(indices[lane]);
+    if (at >= caps.size() || squares[lane] > best || (squares[lane] == best && at > found)) continue;
+    best = squares[lane];
+    found = at;
+  }
+  return found;
+}
+
+bool halves_on_target(const CapArrays& caps, const CapNumbers& cap, double crossing_doubt, const Vec3d points[3],
+                      double doubt) {
+  const DoubleTag d;
+  const BesideOne one(cap);
+  const Doubles above = hn::Set(d, crossing_doubt), sure = hn::Set(d, doubt);
+  DoubleMask first_half = hn::Gt(above, above), second_half = first_half;  // none
+  for (int i = 0; i < caps.size(); i += kDoubles) {
+    const Doubles c = hn::LoadU(d, caps[3] + i);
+    const auto held = [&](Vec3d point) HWY_ATTR {
+      const Doubles along = dot_lanes(caps, i, hn::Set(d, point.x), hn::Set(d, point.y), hn::Set(d, point.z));
+      return hn::Gt(hn::Sub(along, c), sure);
+    };
     Doubles t = above;
-    return hn::Gt(one.crossing(caps, i, t), above);
-  });
+    const DoubleMask middle = hn::And(hn::Gt(one.crossing(caps, i, t), above), held(points[1]));
+    first_half = hn::Or(first_half, hn::And(middle, held(points[0])));
+    second_half = hn::Or(second_half, hn::And(middle, held(points[2])));
+    if (!hn::AllFalse(d, first_half) && !hn::AllFalse(d, second_half)) return true;
+  }
+  return false;
 }
 
 int holding_on_target(const CapArrays& caps, int from, Vec3d a, Vec3d b, double doubt) {
@@ -104,7 +151,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bihive {
 HWY_EXPORT(unclear_on_target);
-HWY_EXPORT(crossing_on_target);
+HWY_EXPORT(widest_on_target);
+HWY_EXPORT(halves_on_target);
 HWY_EXPORT(holding_on_target);
 
 namespace measure {
@@ -137,9 +185,16 @@ int first_unclear(const CapArrays& caps, int from, const CapNumbers& cap, double
   return HWY_DYNAMIC_DISPATCH(unclear_on_target)(caps, from, cap, doubt);
 }
 
-int first_crossing(const CapArrays& caps, int from, const CapNumbers& cap, double doubt) {
+int widest_crossing(const CapArrays& caps, const CapNumbers& cap, double doubt) {
   ensure_target();
-  return HWY_DYNAMIC_DISPATCH(crossing_on_target)(caps, from, cap, doubt);
+  return HWY_DYNAMIC_DISPATCH(widest_on_target)(caps, cap, doubt);
+}
+
+bool hold_halves(const CapArrays& caps, const CapNumbers& cap, double crossing_doubt, Vec3d start, Vec3d middle,
+                 Vec3d end, double doubt) {
+  ensure_target();
+  const Vec3d points[3] = {start, middle, end};
+  return HWY_DYNAMIC_DISPATCH(halves_on_target)(caps, cap, crossing_doubt, points, doubt);
 }
 
 int first_holding(const CapArrays& caps, int from, Vec3d a, Vec3d b, double doubt) {

@@ -45,8 +45,14 @@ class CapArrays {
 /// cross. `doubt`: the least |d| that is sure. The number of caps if there is none.
 int first_unclear(const CapArrays& caps, int from, const CapNumbers& cap, double doubt);
 
-/// The first cap from `from` on whose circle surely crosses that of `cap`.
-int first_crossing(const CapArrays& caps, int from, const CapNumbers& cap, double doubt);
+/// Of the caps whose circles surely cross that of `cap`, the one that covers the longest arc of it; of equal ones the
+/// first. The number of caps if there is none.
+int widest_crossing(const CapArrays& caps, const CapNumbers& cap, double doubt);
+
+/// Whether some cap surely holds start and middle, and some cap middle and end: each above its c by more than `doubt`,
+/// of the caps whose circles surely cross that of `cap` (as in widest_crossing()).
+bool hold_halves(const CapArrays& caps, const CapNumbers& cap, double crossing_doubt, Vec3d start, Vec3d middle,
+                 Vec3d end, double doubt);
 
 /// The first cap from `from` on in which a or b lies, or may lie: x.axis - c is at least -doubt.
 int first_holding(const CapArrays& caps, int from, Vec3d a, Vec3d b, double doubt);

@@ -14,7 +14,8 @@ constexpr double kDegrees = 180 / kPi;  // of a radian
 
 }  // namespace
 
-bool ExposedSphere::append_pieces(std::vector<ExposedPiece>& pieces, std::vector<Junction>& junctions) const {
+bool ExposedSphere::append_pieces(std::vector<ExposedPiece>& pieces, std::vector<Junction>& junctions,
+                                  PieceArcs* arcs) const {
   if (part_.solid_angle == 0 && cycles_ == 0) return true;
   const auto first = static_cast<std::int64_t>(pieces.size());
   if (cycles_ == 0) {
@@ -26,6 +27,7 @@ bool ExposedSphere::append_pieces(std::vector<ExposedPiece>& pieces, std::vector
   // Each piece is a sphere with holes: its solid angle by Gauss and Bonnet, as that of the whole.
   const int made = 1 + *std::max_element(piece_of_cycle.begin(), piece_of_cycle.end());
   pieces.resize(pieces.size() + static_cast<std::size_t>(made));
+  if (arcs != nullptr && made > 1) append_arcs(piece_of_cycle, *arcs);
   for (int p = 0; p < made; ++p) pieces[first + p].solid_angle = 4 * kPi;
   for (const int piece : piece_of_cycle) pieces[first + piece].solid_angle -= 2 * kPi;
   const auto add_arc = [&](int piece, const Cap& cap, double length, Vec3d from_start_to_end) {
@@ -59,6 +61,17 @@ bool ExposedSphere::append_pieces(std::vector<ExposedPiece>& pieces, std::vector
     junctions.push_back(junction);
   }
   return made == count;
+}
+
+void ExposedSphere::append_arcs(const std::vector<int>& piece_of_cycle, PieceArcs& arcs) const {
+  for (std::size_t n = 0; n < whole_circles_.size(); ++n) {
+    const Cap& cap = caps_[whole_circles_[n]];
+    arcs.arcs.push_back({cap.axis, cap.c, cap.s, across(cap.axis), 2 * kPi, piece_of_cycle[n]});
+  }
+  for (const Corner& corner : corners_) {
+    const Cap& cap = caps_[corner.after_on];
+    arcs.arcs.push_back({cap.axis, cap.c, cap.s, corner.after, corner.length, piece_of_cycle[corner.cycle]});
+  }
 }
 
 // The piece of each cycle, from 0 on, where the part has this many pieces.

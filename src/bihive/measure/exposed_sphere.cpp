@@ -142,9 +142,9 @@ std::optional<ExposedSphere::Crossing> ExposedSphere::crossing_of(int p, int q) 
   return std::nullopt;
 }
 
-// A cap whose circle crosses that of cap p; -1: none.
+// A cap whose circle crosses that of cap p, and covers much of it; -1: none.
 int ExposedSphere::find_crossing(int p) const {
-  const int sure = first_crossing(arrays_, 0, caps_[p], kCrossingError);
+  const int sure = widest_crossing(arrays_, caps_[p], kCrossingError);
   if (sure < arrays_.size()) return sure;
   for (int q = 0; q < arrays_.size(); ++q)
     if (q != p && !caps_[q].redundant && crossing_of(std::min(p, q), std::max(p, q))) return q;
@@ -172,6 +172,11 @@ bool ExposedSphere::is_surely_covered(int p, int first) const {
   Vec3d start = points.middle + points.offset, end = points.middle - points.offset;
   double doubt = points.error + 4 * kCapError;
   if (!(doubt < kSure)) return false;
+  // No cap that crosses leaves less of the circle. So one that holds an end and the middle of the arc covers all
+  // between them: otherwise it would leave less than half of the arc.
+  const Vec3d across_own = caps_[first].axis - pair.g * own.axis;
+  const Vec3d middle = own.c * own.axis - own.s * normalized(across_own);
+  if (hold_halves(arrays_, own, kCrossingError, start, middle, end, doubt)) return true;
   for (int l = first_holding(arrays_, 0, start, end, doubt); l < arrays_.size();
        l = first_holding(arrays_, l + 1, start, end, doubt)) {
     if (l == p || l == first) continue;

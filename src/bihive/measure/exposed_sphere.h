@@ -12,6 +12,7 @@
 #include "bihive/measure/balls.h"
 #include "bihive/measure/cap_lanes.h"
 #include "bihive/measure/decisions.h"
+#include "bihive/measure/piece_arcs.h"
 #include "bihive/measure/union_find.h"
 
 namespace bihive::measure {
@@ -95,7 +96,9 @@ class ExposedSphere {
 
   /// Appends the pieces of the part that measure() returned last, and their junctions. False: in binary64 it could not
   /// be told which cycles of arcs bound one piece together, so that there are more pieces than the solid angle tells.
-  bool append_pieces(std::vector<ExposedPiece>& pieces, std::vector<Junction>& junctions) const;
+  /// `arcs`, if given, gets the arcs of all pieces, which it numbers from 0 on, if there are several.
+  bool append_pieces(std::vector<ExposedPiece>& pieces, std::vector<Junction>& junctions,
+                     PieceArcs* arcs = nullptr) const;
 
  private:
   // The cap that ball `id` cuts off the sphere.
@@ -184,6 +187,7 @@ class ExposedSphere {
   void add_side(const Line& line);
   double radius_of_sides() const;
   std::vector<int> pieces_of_cycles(int pieces) const;
+  void append_arcs(const std::vector<int>& piece_of_cycle, PieceArcs& arcs) const;
   void join_along(Vec3d from, int from_cycle, Vec3d to, int to_cycle, UnionFind<int>& groups) const;
 };
 

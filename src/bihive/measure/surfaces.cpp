@@ -8,7 +8,8 @@
 #include "bihive/measure/lattice_union_find.h"
 
 namespace bihive::measure {
-std::vector<Surface> surfaces_of(const Balls& balls, const std::optional<Lattice>& lattice, std::vector<Pieces> lists) {
+std::vector<Surface> surfaces_of(const Balls& balls, const std::optional<Lattice>& lattice, std::vector<Pieces> lists,
+                                 std::vector<std::int64_t>* surface_of_piece) {
   // Number all pieces.
   Pieces all;
   for (Pieces& list : lists) {
@@ -47,6 +48,7 @@ std::vector<Surface> surfaces_of(const Balls& balls, const std::optional<Lattice
       if (const auto loop = loops.find(member.group); loop != loops.end())
         surfaces.back().translations = loop->second.rows();
     }
+    if (surface_of_piece != nullptr) surface_of_piece->push_back(at);
     Surface& surface = surfaces[at];
     surface.balls.push_back(ball);
     const double r = balls.radius[ball];

@@ -29,6 +29,8 @@ struct Surface {
 };
 
 /// Of all pieces, in the order of the lists. Takes them. `lattice`: of periodic balls, in their units.
-std::vector<Surface> surfaces_of(const Balls& balls, const std::optional<Lattice>& lattice, std::vector<Pieces> lists);
+/// `surface_of_piece`, if given: the surface of each piece, in the order of the lists.
+std::vector<Surface> surfaces_of(const Balls& balls, const std::optional<Lattice>& lattice, std::vector<Pieces> lists,
+                                 std::vector<std::int64_t>* surface_of_piece = nullptr);
 
 }  // namespace bihive::measure

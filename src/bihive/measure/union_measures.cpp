@@ -23,6 +23,7 @@ namespace {
 using measure::Balls;
 using measure::Boundary;
 using measure::Counted;
+using measure::counted_spheres;
 using measure::ExposedPart;
 
 // A sum with the error of few additions, in the order of the calls [Neumaier1974].
@@ -38,25 +39,6 @@ class AccurateSum {
  private:
   double sum_ = 0, lost_ = 0;
 };
-
-// A multiple of 2^-160.
-double on_grid(double x) {
-  return x >= 0x1p-100 ? x : std::ldexp(std::floor(std::ldexp(x, 160)), -160);
-}
-
-Counted counted_spheres(const SphereSet& set, double probe, const std::uint8_t* mask) {
-  Counted counted;
-  counted.probe = probe;
-  for (std::int64_t id = 0; id < set.size(); ++id) {
-    if (mask != nullptr && mask[id] == 0) continue;
-    const double radius = on_grid(set.stored_radius(id) + probe);
-    if (radius == 0) continue;
-    counted.ids.push_back(id);
-    counted.balls.centre.push_back(set.stored_centre(id));
-    counted.balls.radius.push_back(radius);
-  }
-  return counted;
-}
 
 Status check_options(const SphereSet& set, const MeasureOptions& options) {
   if (set.has_images())

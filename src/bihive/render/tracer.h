@@ -22,6 +22,7 @@ namespace bihive {
 class RemoteEngine;
 class RayEngine;
 class CutSet;
+struct EngineParameters;
 class StickSet;
 struct Scene;
 
@@ -63,7 +64,8 @@ class Tracer {
                               int threads = 0);
 
   /// The same for a scene, whose clips (scene/clips.h) cut its spheres open, and whose sticks stand beside them.
-  /// Without either it is the tracer of the scene's spheres. Error: check_sticks(). `first`: the number of spheres that
+  /// Without either it is the tracer of the scene's spheres, or of the walls of cavities. Error: check_sticks(), or
+  /// either of them beside cavities. `first`: the number of spheres that
   /// are traced; rays may exit the others too; below 0: all. If that is not all, clips must cut some sphere.
   static Result<Tracer> build(const Scene& scene, Engine engine, const TreeParameters& parameters = {}, int threads = 0,
                               std::int64_t first = -1);
@@ -95,6 +97,8 @@ class Tracer {
   bool has_clips() const { return has_clips_; }
   /// Whether there are sticks beside the spheres. Their ids follow those of the spheres (geometry/stick_set.h).
   bool has_sticks() const { return has_sticks_; }
+  /// Whether it shows the walls of cavities (Scene::cavity_walls). Then there is no tree of all spheres.
+  bool has_cavities() const { return has_cavities_; }
   /// Whether the spheres have images. Then a tree is that of the stored spheres alone.
   bool has_images() const { return has_images_; }
   const Tree* tree() const { return tree_; }                ///< null unless the engine is `reference`
@@ -103,6 +107,7 @@ class Tracer {
   double build_ms() const { return build_ms_; }             ///< 0 for a tree from elsewhere
 
  private:
+  static Result<Tracer> of_cavities(const Scene& scene, const EngineParameters& parameters);
   static Result<Tracer> with_sticks(Tracer tracer, const StickSet& sticks, std::shared_ptr<const CutSet> cuts);
   Tracer(const SphereSet& spheres, Engine engine, std::shared_ptr<const RayEngine> rays);
 
@@ -112,7 +117,7 @@ class Tracer {
   const Tree* tree_;
   const WideTree* wide_tree_;
   std::shared_ptr<RemoteEngine> remote_;  // null: the spheres are here
-  bool has_clips_ = false, has_images_ = false, has_sticks_ = false;
+  bool has_clips_ = false, has_images_ = false, has_sticks_ = false, has_cavities_ = false;
   double build_ms_ = 0;
 };
 

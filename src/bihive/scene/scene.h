@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "bihive/settings/picture_settings.h"
 
 namespace bihive {
+
+class CavityWalls;
 
 /// White light of strength 1 unless coloured; no fall-off with distance. A light with a radius is a bright ball and
 /// casts soft shadows.
@@ -67,6 +70,9 @@ struct Scene {
   std::string length_unit;  ///< of the input's format ("Å"); empty: unknown
   std::vector<PointLight> lights;
   std::optional<ScenePlane> plane;
+  /// Pictures show these walls in place of whole spheres, which are those that line them (scene/cavities.h). Null:
+  /// whole spheres.
+  std::shared_ptr<const CavityWalls> cavity_walls;
   std::vector<Clip> clips;  ///< SphereAttributes::clips selects the spheres of each; at most kMostClips
   Camera camera;
   Vec3d background{1, 1, 1};          ///< linear radiance

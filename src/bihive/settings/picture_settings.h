@@ -1,6 +1,7 @@
 // All settings of a picture: stated in a style, in a scene file, or by the user.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "bihive/image/tone.h"
@@ -45,9 +46,12 @@ struct PictureSettings {
   int light_points = 8;  ///< shadow rays per light with a radius and sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
-  Sticks sticks;                        ///< for find_bonds() (scene/bonds.h), before a picture is drawn
-  Arrows arrows;                        ///< for add_arrows() (scene/arrows.h), after that
-  Traces traces;                        ///< for add_traces() (scene/traces.h), last
+  Sticks sticks;  ///< for find_bonds() (scene/bonds.h), before a picture is drawn
+  Arrows arrows;  ///< for add_arrows() (scene/arrows.h), after that
+  Traces traces;  ///< for add_traces() (scene/traces.h), last
+  /// The radius of the probe for show_cavities() (scene/cavities.h), world units, at least 0; infinite: whole spheres
+  /// are drawn.
+  double cavity_probe = std::numeric_limits<double>::infinity();
   std::optional<CellLines> cell_lines;  ///< without effect if the spheres have no cell
   LineUnit line_unit = LineUnit::px;    ///< of all widths of lines
   /// The picture has opacity instead of a background: samples that hit nothing add no light to their pixel. Reflected
@@ -65,6 +69,8 @@ struct PictureSettings {
   Tone tone;
   Labels labels;                       ///< for draw_labels() (render/draw_labels.h); an animation has none
   Transfer transfer = Transfer::srgb;  ///< for png_pixels_from_film(); a film is linear
+
+  bool shows_cavities() const { return cavity_probe < std::numeric_limits<double>::infinity(); }
 };
 
 /// Depth of field needs many samples everywhere: gives `settings` at least kLensSamples.

@@ -6,6 +6,7 @@
 #include "bihive/io/packed.h"
 #include "bihive/scene/arrows.h"
 #include "bihive/scene/bonds.h"
+#include "bihive/scene/cavities.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/floor.h"
 #include "bihive/scene/light_text.h"
@@ -270,6 +271,9 @@ Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const C
     if (const Result<AddedArrows> added = add_arrows(scene, scene.picture.arrows); !added) return added.error();
   if (scene.picture.traces.any())
     if (const Result<AddedTraces> added = add_traces(scene, scene.picture.traces); !added) return added.error();
+  if (scene.picture.shows_cavities())
+    if (const Result<ShownCavities> shown = show_cavities(scene, scene.picture.cavity_probe); !shown)
+      return shown.error();
   looked.counts = std::move(*counts);
   if (!look.floor.empty())
     if (Status status = lay_floor(looked.loaded, look, kept.floor); !status) return status.error();

@@ -18,7 +18,7 @@ Result<const BuiltWideTree*> SceneTrees::built() {
 
 Result<const Tracer*> SceneTrees::wide() {
   if (wide_) return &*wide_;
-  if (has_clips(scene_) || scene_.spheres.has_images() || !scene_.sticks.empty()) {
+  if (has_clips(scene_) || scene_.spheres.has_images() || !scene_.sticks.empty() || scene_.cavity_walls != nullptr) {
     Result<Tracer> tracer = Tracer::build(scene_, Engine::wide, parameters_);
     if (!tracer) return tracer.error();
     wide_ = std::move(*tracer);

@@ -439,6 +439,10 @@ class Viewer::Implementation {
       return bad_setting("this view shows the tree of whole spheres", "remove the clips");
     if (of_tree && shown.scene.spheres.has_images())
       return bad_setting("this view shows the tree of the stored spheres", "draw it without copies");
+    if (of_tree && shown.scene.cavity_walls != nullptr)
+      return bad_setting("this view shows the tree of whole spheres", "choose a scene without cavities");
+    if (settings.engine == ViewerEngine::gpu && shown.scene.cavity_walls != nullptr)
+      return bad_setting("the graphics processor draws no cavities", "draw on the CPU");
     if (of_tree && !shown.scene.sticks.empty())
       return bad_setting("this view shows the tree of the spheres", "choose a style without bonds");
     if (settings.engine == ViewerEngine::gpu && !shown.scene.sticks.empty())

@@ -113,6 +113,11 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
     return Error{"this view shows the tree of the spheres, and there are sticks", "", 0, 0, "leave out the sticks"};
   if (tracer.has_sticks() == scene.sticks.empty())
     return Error{"the tracer does not have the sticks of the scene", "", 0, 0, "build the tracer from the scene"};
+  if (of_tree && scene.cavity_walls != nullptr)
+    return Error{"this view shows the tree of whole spheres, and the picture is of cavities", "", 0, 0,
+                 "leave out " + setting_name("show_cavities")};
+  if (tracer.has_cavities() != (scene.cavity_walls != nullptr))
+    return Error{"the tracer does not have the cavities of the scene", "", 0, 0, "build the tracer from the scene"};
   if (of_tree && tracer.tree() == nullptr)
     return Error{"this view shows the reference tree, which the engine does not have", "", 0, 0,
                  "choose the reference engine"};

@@ -13,6 +13,7 @@
 #include "bihive/base/watch.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/query/build_engine.h"
+#include "bihive/render/query/cavity_engine.h"
 #include "bihive/render/query/pixel_order.h"
 #include "bihive/render/query/reference_engine.h"
 #include "bihive/render/query/remote_rays.h"
@@ -59,6 +60,7 @@ Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParame
   if (scene.spheres.has_images() && bihive::has_clips(scene))
     return Error{"clips cannot cut the copies of a replicated set", "", 0, 0, "leave out the clips or the copies"};
   if (Status status = check_sticks(scene); !status) return status.error();
+  if (scene.cavity_walls != nullptr) return of_cavities(scene, EngineParameters(engine, parameters, threads));
   std::shared_ptr<const CutSet> cuts = cut_set_of(scene);
   const std::int64_t count = first < 0 ? scene.spheres.size() : first;
   BIHIVE_CHECK(cuts != nullptr || count == scene.spheres.size());
@@ -80,6 +82,20 @@ Result<Tracer> Tracer::build(const Scene& scene, Engine engine, const TreeParame
   work.report(1);
   if (scene.sticks.empty()) return tracer;
   return with_sticks(std::move(tracer), scene.sticks, std::move(cuts));
+}
+
+Result<Tracer> Tracer::of_cavities(const Scene& scene, const EngineParameters& parameters) {
+  if (bihive::has_clips(scene) || !scene.sticks.empty())
+    return Error{"pictures of cavities show no cut spheres and no sticks", "", 0, 0, "leave them out"};
+  WatchedWork work(WatchedWork::InnerProgress::passed_on);
+  const Timer timer;
+  Result<std::shared_ptr<const RayEngine>> rays = build_engine(scene.cavity_walls->spheres(), parameters);
+  if (!rays) return rays.error();
+  Tracer tracer(scene.spheres, parameters.engine, std::make_shared<CavityEngine>(scene.cavity_walls, std::move(*rays)));
+  tracer.has_cavities_ = true;
+  if (!is_brute(parameters.engine)) tracer.build_ms_ = timer.elapsed_ms();
+  work.report(1);
+  return tracer;
 }
 
 Result<Tracer> Tracer::with_sticks(Tracer tracer, const StickSet& sticks, std::shared_ptr<const CutSet> cuts) {
