@@ -225,9 +225,13 @@ std::string ray_paths_text(const std::vector<workbench::StructurePath>& paths, c
                                  pixel.second, side_px, side_px);
   for (const workbench::StructurePath& path : paths) {
     const Hit hit = path.hit();
-    text += fmt::format("\n{}: {}; {} nodes, {} box tests, {} sphere tests\n", path.row.name,
+    const auto number = [](std::int64_t count, const char* what) {
+      return fmt::format("{} {}{}", grouped(count), what, count == 1 ? "" : "s");
+    };
+    text += fmt::format("\n{}: {}; {}, {}, {}\n", path.row.name,
                         hit.found() ? fmt::format("sphere {} at t = {:.6g}", hit.sphere_id, hit.t) : "no hit",
-                        grouped(path.work.nodes), grouped(path.work.box_tests), grouped(path.work.sphere_tests));
+                        number(path.work.nodes, "node"), number(path.work.box_tests, "box test"),
+                        number(path.work.sphere_tests, "sphere test"));
     std::int64_t inner = 0;
     for (const workbench::PathStep& step : path.steps) {
       // Nodes without spheres are told in one line.
@@ -240,7 +244,8 @@ std::string ray_paths_text(const std::vector<workbench::StructurePath>& paths, c
       constexpr std::size_t kShown = 8;
       const std::size_t shown = std::min(kShown, step.sphere_ids.size());
       const auto first = step.sphere_ids.begin();
-      text += fmt::format("  spheres {}", fmt::join(first, first + static_cast<std::ptrdiff_t>(shown), " "));
+      text += fmt::format("  {} {}", step.sphere_ids.size() == 1 ? "sphere" : "spheres",
+                          fmt::join(first, first + static_cast<std::ptrdiff_t>(shown), " "));
       if (shown < step.sphere_ids.size())
         text += fmt::format(" and {} more", grouped(std::ssize(step.sphere_ids) - std::int64_t(shown)));
       text += step.best.found() ? fmt::format(": nearest so far {} at t = {:.6g}\n", step.best.sphere_id, step.best.t)

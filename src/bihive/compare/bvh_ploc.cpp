@@ -73,8 +73,9 @@ class Merging {
     }
   }
 
-  // Pairs are ordered in one way from both sides, so the first of all always merges; of pairs with equal surfaces, as
-  // coincident spheres have, half of the spheres are in one that does.
+  // The order of pairs is the same from both sides, so the first of all pairs always merges. Where surfaces are equal,
+  // as those of coincident spheres, neighbours 0 and 1, 2 and 3 and so on choose each other, and half of the clusters
+  // stay.
   std::int64_t nearest_of(std::int64_t i) const {
     std::int64_t best = -1;
     std::tuple<double, std::int64_t, bool, std::int64_t> least;
