@@ -6,13 +6,13 @@
 #include <memory>
 
 #include "bihive/base/parallel.h"
+#include "bihive/base/resident_memory.h"
 #include "bihive/base/timer.h"
 #include "bihive/job/failure.h"
 #include "bihive/math/quartiles.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/wide_builder.h"
 #include "frames/frame.h"
-#include "memory.h"
 #include "peers/embree.h"
 #include "tiles.h"
 

@@ -5,17 +5,17 @@
 #include <array>
 #include <functional>
 
-#include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
-#include "bihive/compare/structure.h"
 #include "bihive/io/known_formats.h"
 #include "bihive/job/failure.h"
 #include "bihive/select/selection.h"
 #include "commands/names.h"
+#include "compare_options.h"
 #include "film/film_plan.h"
 #include "request_options.h"
 #include "server/addresses.h"
+#include "value_options.h"
 #include "words/given_options.h"
 #include "words/short_help.h"
 
@@ -24,25 +24,6 @@ namespace {
 
 constexpr std::int64_t kLargestPort = 65535;
 constexpr const char* kSceneSave = "scene-save";
-
-// An option with one value of its own syntax: `parse` turns the text into a Result.
-template <class Target, class Parse>
-CLI::Option* add_value(CLI::App& app, const std::string& name, Target& target, const std::string& type,
-                       const std::string& help, Parse parse) {
-  const auto take = [&target, name, parse](const std::string& text) {
-    auto value = parse(text);
-    if (!value) throw CLI::ValidationError(name, value.error().message);
-    target = *value;
-  };
-  return app.add_option_function<std::string>(name, take, help)->type_name(type);
-}
-
-template <class Target>
-CLI::Option* add_integer(CLI::App& app, const std::string& name, Target& target, std::int64_t min, std::int64_t max,
-                         const std::string& help) {
-  return add_value(app, name, target, "N", help,
-                   [min, max](const std::string& text) { return whole_number_from_text(text, min, max); });
-}
 
 template <class Target, class T>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, Target& target, const Names<T>& names,
@@ -296,50 +277,22 @@ void add_stats(CLI::App& app, StatsOptions& options, Request& request) {
   add_json_flag(command, options.json);
 }
 
-// The names between commas, each once; `named` turns one into a Result.
-template <class T, class Named>
-Result<std::vector<T>> list_from_text(const std::string& text, const Named& named) {
-  std::vector<T> list;
-  for (std::size_t first = 0; first <= text.size();) {
-    const std::size_t end = std::min(text.find(',', first), text.size());
-    const std::string name = text.substr(first, end - first);
-    Result<T> one = named(name);
-    if (!one) return one.error();
-    if (std::find(list.begin(), list.end(), *one) != list.end())
-      return Error{name + " stands twice", "", 0, 0, "leave one out"};
-    list.push_back(std::move(*one));
-    first = end + 1;
-  }
-  return list;
-}
-
 void add_compare(CLI::App& app, CompareOptions& options, Request& request) {
   CLI::App& command = add_command(
       app, "compare", "Compare trees and grids on these spheres: built, counted, timed", "bihive compare demo",
-      "bihive compare scenario2 --structures wide,bih,grid --rays random,points --json", options, request);
+      "bihive compare scenario2 --structures bih,kd-sah --sweep max-prims=1,2,4,8 --json", options, request);
   add_input(command, options.input);
-  add_path(command, "-o,--output", options.output, "Written: a report, one HTML file")->required(false);
-  std::string names, kinds;
-  for (const workbench::StructureRow& row : workbench::structures())
-    names += (names.empty() ? "" : ", ") + std::string(row.name);
-  for (const workbench::QueryKindRow& row : workbench::kQueryKinds)
-    kinds += (kinds.empty() ? "" : ", ") + std::string(row.name);
-  add_value(command, "--structures", options.structures, "NAME,...", in_lines("The structures (all): " + names),
-            [](const std::string& text) {
-              return list_from_text<std::string>(text, [](const std::string& name) -> Result<std::string> {
-                const auto row = workbench::structure_named(name);
-                if (!row) return row.error();
-                return name;
-              });
-            });
-  add_value(command, "--rays", options.kinds, "KIND,...",
-            in_lines("The rays (all): " + kinds + "; points ask for the nearest sphere"), [](const std::string& text) {
-              return list_from_text<workbench::QueryKind>(text, workbench::query_kind_named);
-            });
-  add_integer(command, "--rays-count", options.count, 1, std::int64_t{1} << 30,
-              "Primary and random rays, and points (65536); the other rays start at hits of\nthe primary ones");
-  add_integer(command, "--threads", options.threads, 0, kMostThreads,
-              "Threads of all queries and of the wide tree's build; 0: all (1)");
+  add_compare_options(command, options);
+  add_input_options(command, options.input);
+  add_json_flag(command, options.json);
+}
+
+void add_tune(CLI::App& app, TuneCommandOptions& options, Request& request) {
+  CLI::App& command =
+      add_command(app, "tune", "Search the tree's parameters that suit these spheres, in about ten seconds",
+                  "bihive tune demo", "bihive tune scenario2 --structure bih --rays primary,shadow", options, request);
+  add_input(command, options.input);
+  add_tune_options(command, options);
   add_input_options(command, options.input);
   add_json_flag(command, options.json);
 }
@@ -611,6 +564,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
   ViewOptions view;
   StatsOptions stats;
   CompareOptions compare;
+  TuneCommandOptions tune;
   TraceOptions trace;
   SceneOptions scene;
   SceneSaveOptions scene_save;
@@ -632,6 +586,7 @@ Request parse_words(int argc, const char* const* argv, bool with_film, const Des
       {"view", [&] { add_view(app, view, request); }},
       {"stats", [&] { add_stats(app, stats, request); }},
       {"compare", [&] { add_compare(app, compare, request); }},
+      {"tune", [&] { add_tune(app, tune, request); }},
       {"trace", [&] { add_trace(app, trace, request); }},
       {"scene", [&] { add_scene(app, scene, request); }},
       {kSceneSave, [&] { add_scene_save(app, scene_save, request); }},

@@ -21,8 +21,8 @@ struct HelpText {
 };
 using Request =
     std::variant<HelpText, RenderOptions, AgainOptions, VerifyOptions, FilmOptions, ViewOptions, StatsOptions,
-                 CompareOptions, TraceOptions, SceneOptions, SceneSaveOptions, InfoOptions, SelectOptions,
-                 MeasureCommandOptions, ConvertOptions, StylesOptions, ThesisOptions, WebOptions>;
+                 CompareOptions, TuneCommandOptions, TraceOptions, SceneOptions, SceneSaveOptions, InfoOptions,
+                 SelectOptions, MeasureCommandOptions, ConvertOptions, StylesOptions, ThesisOptions, WebOptions>;
 
 /// The text of `bihive describe WORDS...`, from the description of the command line (words/read_program_words.h).
 using Describe = std::function<std::string(const CLI::App& app, const std::vector<std::string>& words)>;

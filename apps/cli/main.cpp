@@ -56,6 +56,7 @@ struct Run {
   int operator()(const ViewOptions& options) const { run_view(options); }
   int operator()(const StatsOptions& options) const { return run_stats(with_input(options)), kSuccess; }
   int operator()(const CompareOptions& options) const { return run_compare(with_input(options)), kSuccess; }
+  int operator()(const TuneCommandOptions& options) const { return run_tune(with_input(options)), kSuccess; }
   int operator()(const TraceOptions& options) const { return run_trace(with_input(options)), kSuccess; }
   int operator()(const SceneOptions& options) const { return run_scene(options), kSuccess; }
   int operator()(const SceneSaveOptions& options) const { return run_scene_save(options), kSuccess; }

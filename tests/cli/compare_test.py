@@ -8,9 +8,9 @@ import jsonschema
 from program import ProgramTest, main
 
 SOURCE = os.environ.get("BIHIVE_SOURCE", os.path.join(os.path.dirname(__file__), "../.."))
-STRUCTURES = "wide bih bvh-sah bvh-lbvh grid pkd brute".split()
+STRUCTURES = "wide bih bvh-sah bvh-lbvh bvh-ploc kd-sah octree grid pkd brute".split()
 KINDS = "primary random shadow mirror ao points".split()
-FEW = ["--rays-count", "512"]
+FEW = ["--rays-count", "256", "--threads", "1"]
 
 
 class Page(html.parser.HTMLParser):
@@ -29,17 +29,42 @@ class Page(html.parser.HTMLParser):
         self.words.append(data)
 
 
+def schema_of(name):
+    with open(os.path.join(SOURCE, f"docs/{name}.schema.json")) as file:
+        return json.load(file)
+
+
 class Compare(ProgramTest):
-    def compare(self, *words):
-        result = self.succeed_json("compare", *words)
-        with open(os.path.join(SOURCE, "docs/comparison.schema.json")) as file:
-            schema = json.load(file)
+    def compare(self, *words, command="compare", schema="comparison"):
+        result = self.succeed_json(command, *words)
+        schema = schema_of(schema)
         jsonschema.Draft7Validator.check_schema(schema)
         jsonschema.Draft7Validator(schema).validate(result)
         return result
 
+    def test_names_are_the_same_everywhere(self):
+        """The program's tables, its help, the documentation and the schemas know the same structures, rays and parameters."""
+        with open(os.path.join(SOURCE, "docs/comparison.md")) as file:
+            documentation = file.read()
+        help_text = " ".join(self.succeed("compare", "--help").split())
+        self.assertIn("The structures (all): " + ", ".join(STRUCTURES), help_text)
+        self.assertIn("The rays (all): " + ", ".join(KINDS), help_text)
+
+        def names_of(heading):
+            part = documentation.split(f"## {heading}\n")[1].split("\n## ")[0]
+            return [line.split("`")[1] for line in part.splitlines() if line.startswith("| `")]
+
+        self.assertEqual(names_of("Structures"), STRUCTURES)
+        self.assertEqual(names_of("Rays"), KINDS)
+        parameters = names_of("Parameters")
+        for schema in ("comparison", "sweep"):
+            self.assertEqual(schema_of(schema)["definitions"]["kind"]["enum"], KINDS)
+        for schema in ("sweep", "tuning"):
+            self.assertEqual(list(schema_of(schema)["definitions"]["parameters"]["properties"]), parameters)
+        self.assertIn(", ".join(parameters), self.fail_usage("compare", "demo", "--sweep", "x=1"))
+
     def test_all_structures_and_kinds(self):
-        result = self.compare("demo", *FEW)
+        result = self.compare("demo", "--rays-count", "512")
         self.assertEqual([one["name"] for one in result["structures"]], STRUCTURES)
         self.assertEqual(list(result["queries"]), KINDS)
         self.assertTrue(result["same_bits"])
@@ -51,7 +76,8 @@ class Compare(ProgramTest):
             self.assertEqual(list(one["kinds"]), KINDS)
             for kind, steps in one["kinds"].items():
                 self.assertEqual(steps["different"], 0, (one["name"], kind))
-                self.assertGreater(one["mray_per_s"][kind], 0)
+                self.assertEqual(len(one["mray_per_s"][kind]), len(result["threads"]))
+                self.assertGreaterEqual(steps["nodes"]["mean"], steps["leaves"]["mean"])
                 self.assertGreaterEqual(steps["sphere_tests"]["99_percent"], 1)
                 self.assertAlmostEqual(steps["cost"], steps["nodes"]["mean"] + steps["sphere_tests"]["mean"])
             if one["name"] != "brute":
@@ -63,12 +89,22 @@ class Compare(ProgramTest):
 
     def test_counts_depend_on_the_spheres_alone(self):
         def counts(*words):
-            result = self.compare("scenario2", "--count", "500", "--radius", "0.3", "--rays", "random,ao,points", *FEW, *words)
+            result = self.compare("scenario2", "--count", "500", "--radius", "0.3", "--rays", "random,ao,points", "--rays-count", "256", *words)
             return [(one["name"], one["kinds"], one["expected"], one["bytes"]) for one in result["structures"]], result["threads"]
 
-        one, two = counts(), counts("--threads", "2")
+        one, two, both = counts("--threads", "1"), counts("--threads", "2"), counts("--threads", "2,1")
         self.assertEqual(one[0], two[0])
-        self.assertEqual((one[1], two[1]), (1, 2))
+        self.assertEqual(one[0], both[0])
+        self.assertEqual((one[1], two[1], both[1]), ([1], [2], [2, 1]))
+
+    def test_costs_of_steps(self):
+        fits = [one["fit"] for one in self.compare("demo", "--rays-count", "1024", "--structures", "bih,kd-sah")["structures"]]
+        for fit in fits:
+            self.assertEqual(fit["groups"], 4 * len(KINDS))
+            self.assertGreater(sum(fit[step] for step in ("fixed_ns", "inner_ns", "leaf_ns", "test_ns")), 0)
+        # Too few queries for groups.
+        few = self.compare("demo", "--rays-count", "16", "--rays", "random", "--structures", "bih")["structures"]
+        self.assertIsNone(few[0]["fit"])
 
     def test_chosen_ones(self):
         result = self.compare("four-spheres", "--structures", "grid,bih", "--rays", "points,primary", *FEW)
@@ -90,18 +126,18 @@ class Compare(ProgramTest):
         self.write("points.csv", "x,y,z,r\n" + "0.5,0.5,0.5,0\n" * 40)
         result = self.compare("points.csv", *FEW, "--rays", "random,shadow,points")
         self.assertTrue(result["same_bits"])
-        self.assertEqual((result["queries"]["shadow"], result["structures"][0]["mray_per_s"]["shadow"]), (0, None))
+        self.assertEqual((result["queries"]["shadow"], result["structures"][0]["mray_per_s"]["shadow"]), (0, []))
         self.assertIsNone(result["structures"][0]["expected"]["cost"])
         self.assertIn("no primary ray leads to one", self.succeed("compare", "points.csv", *FEW, "--rays", "shadow"))
 
     def test_text(self):
         text = self.succeed("compare", "demo", *FEW, "--rays", "random,ao")
         lines = text.splitlines()
-        self.assertIn("spheres, 1 thread, ", lines[0])
+        self.assertRegex(lines[0], r"spheres, 1( and \d+)? threads?, ")
         self.assertRegex(lines[1], r"is the fastest|the only")
         for name in STRUCTURES:
-            self.assertEqual(sum(line.startswith(name + " ") for line in lines[2:]), 3, name)
-        self.assertIn("random: 512 rays", text)
+            self.assertEqual(sum(line.startswith(name + " ") for line in lines[2:]), 4, name)
+        self.assertIn("random: 256 rays", text)
         self.assertEqual(lines[-1], "Every answer has the bits of the reference BIH.")
 
     def test_report(self):
@@ -127,12 +163,97 @@ class Compare(ProgramTest):
             (["--structures", "wide,octopus"], "there is no structure \"octopus\"; there are wide, bih"),
             (["--structures", "bih,bih"], "bih stands twice"),
             (["--structures", ""], "there is no structure \"\""),
+            (["--structures", "octre"], "did you mean octree?"),
+            (["--structures", "embree"], "libembree-dev"),
+            (["--sweep", "max-prim=2"], "did you mean max-prims?"),
+            (["--sweep", "max-prims"], "max-prims has no values"),
+            (["--sweep", "max-prims=0"], "max-prims: expected a whole number from 1"),
+            (["--sweep", "max-prims=2,2"], "max-prims has the value 2 twice"),
+            (["--sweep", "max-prims=2", "--sweep", "max-prims=3"], "max-prims stands twice"),
+            (["--pixel", "3"], "expected a pixel X,Y"),
+            (["--pixel", "0,600"], "lies outside the picture of 256 x 256 pixels"),
+            (["--pixel", "0,0", "--sweep", "max-prims=2"], "--pixel prints the path of one ray"),
+            (["--threads", "1,x"], "--threads"),
             (["--rays", "x-rays"], "there are no rays \"x-rays\"; there are primary"),
             (["--rays-count", "0"], "--rays-count"),
             (["--json", "-o", "-"], "--json and a report on -"),
         ):
             self.assertIn(part, self.fail_usage("compare", "demo", *words))
         self.assertIn("stored spheres", self.fail_usage("compare", "demo", "--replicate", "2x2x2"))
+        self.assertIn("grid takes none of these parameters", self.fail_input("compare", "demo", "--structures", "grid", "--sweep", "max-prims=2"))
+        many = ",".join(str(i) for i in range(1, 300))
+        self.assertIn("combinations", self.fail_input("compare", "demo", "--structures", "bih", "--sweep", "max-prims=" + many))
+        self.assertIn("no sphere is selected", self.fail_input("compare", "demo", "--select", "name XX"))
+        self.assertIn("has no parameters to tune", self.fail_input("tune", "demo", "--structure", "pkd"))
+
+    def test_sweep(self):
+        words = ["demo", "--structures", "bih,kd-sah,grid", "--rays", "random,shadow", *FEW]
+        self.assertIn("grid takes none", self.fail_input("compare", *words, "--sweep", "max-depth=3"))
+        words[2] = "bih,bvh-ploc"
+        sweep = ["--sweep", "max-prims=1,4,16", "--sweep", "max-depth=8,20"]
+        result = self.compare(*words, *sweep, schema="sweep")
+        bih, ploc = result["structures"]
+        # The second one has no limit of levels.
+        self.assertEqual([point["parameters"] for point in ploc["points"]], [{"max-prims": n} for n in (1, 4, 16)])
+        self.assertEqual(
+            [point["parameters"] for point in bih["points"]],
+            [{"max-prims": n, "max-depth": d} for n in (1, 4, 16) for d in (8, 20)],
+        )
+        for swept in result["structures"]:
+            costs = [point["cost"] for point in swept["points"]]
+            for point in swept["points"]:
+                self.assertEqual(point["different"], 0)
+                self.assertEqual(point["good_by_work"], point["cost"] <= 1.02 * min(costs))
+                self.assertLessEqual(point["depth"], point["parameters"].get("max-depth", 1000))
+                self.assertAlmostEqual(point["cost"], sum(kind["cost"] for kind in point["kinds"].values()) / 2)
+        # The same counts as the comparison's.
+        alone = self.compare(*words, *sweep[:2], schema="sweep")["structures"][0]["points"]
+        own = self.compare("demo", "--structures", "bih", "--rays", "random,shadow", *FEW)["structures"][0]["kinds"]
+        eight = self.compare(*words, "--sweep", "max-prims=8", schema="sweep")["structures"][0]["points"][0]
+        for kind, steps in own.items():
+            self.assertAlmostEqual(steps["cost"], eight["kinds"][kind]["cost"])
+        self.assertEqual(len(alone), 3)
+        text = self.succeed("compare", *words, *sweep, "-o", "sweep.html")
+        self.assertRegex(text, r"bih: best by counted cost max-prims \d+")
+        page = Page(self.read("sweep.html").decode())
+        self.assertIn("Parameters for demo", " ".join(page.words))
+        self.assertNotIn("{{", " ".join(page.words))
+        self.assertEqual(page.tags.count("table"), 4)
+
+    def test_tune(self):
+        result = self.compare("demo", "--rays-count", "128", command="tune", schema="tuning")
+        self.assertEqual(result["structure"], "wide")
+        self.assertIn(result["best"], result["candidates"])
+        self.assertEqual(result["own"]["parameters"], {})
+        self.assertGreater(result["own"]["rounds"], 0)
+        for one in result["candidates"]:
+            self.assertEqual(one["ns"] is None, one["rounds"] == 0)
+        # Counted work does not depend on the machine: no two candidates are one tree.
+        trees = [(one["bytes"], one["depth"], one["cost"]) for one in result["candidates"]]
+        self.assertEqual(len(set(trees)), len(trees))
+        self.assertRegex(self.succeed("tune", "demo", "--structure", "bih", "--rays", "random", "--rays-count", "128"), r"bih: (nothing to gain|[\d.]+ times as fast with --)")
+        # One sphere has one tree.
+        self.write("one.xyz", "1\n\nC 1 2 3\n")
+        self.assertIn("nothing to gain", self.succeed("tune", "one.xyz", "--rays-count", "64"))
+
+    def test_path_of_a_pixel(self):
+        result = self.compare("demo", "--pixel", "128,128", schema="ray_paths")
+        self.assertEqual([one["name"] for one in result["structures"]], STRUCTURES)
+        self.assertEqual(len({(one["id"], one["t"]) for one in result["structures"]}), 1)
+        for one in result["structures"]:
+            self.assertEqual(one["sphere_tests"], sum(len(step["spheres"]) for step in one["steps"]))
+            if one["name"] != "brute":
+                self.assertEqual(one["nodes"], len(one["steps"]))
+                hits = [step["t"] for step in one["steps"] if step["t"] is not None]
+                self.assertEqual(hits, sorted(hits, reverse=True))
+        text = self.succeed("compare", "demo", "--pixel", "128,128", "--structures", "bih")
+        self.assertIn("the ray through pixel 128,128 of 256 x 256", text)
+
+    def test_selected_spheres(self):
+        result = self.compare("demo", "--select", "name CA", "--structures", "bih,brute", "--rays", "points", *FEW)
+        self.assertEqual(result["spheres"], 198)
+        self.assertTrue(result["same_bits"])
+        self.assertEqual(result["structures"][1]["kinds"]["points"]["sphere_tests"]["mean"], 198)
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ class Bench {
  public:
   explicit Bench(const World& world) : world_(world), set_(test::sphere_set(world)) {
     for (const StructureRow& row : workbench::structures()) {
-      Result<StructurePointer> built = row.build(set_, 2);
+      Result<StructurePointer> built = row.build(set_, {}, 2);
       EXPECT_TRUE(built.ok()) << row.name;
       names_.emplace_back(row.name);
       structures_.push_back(std::move(*built));
@@ -158,7 +158,7 @@ TEST(Structures, AnswerWithoutSpheres) {
   rays.push_back(ray);
   for (const StructureRow& row : workbench::structures()) {
     SCOPED_TRACE(row.name);
-    const StructurePointer structure = std::move(*row.build(none, 1));
+    const StructurePointer structure = std::move(*row.build(none, {}, 1));
     HitBatch hits;
     hits.resize(1);
     structure->closest_hits(rays.span(), RayOrder::any, hits.span());
@@ -176,7 +176,7 @@ TEST(Structures, CountTheirSteps) {
   const SphereSet set = test::sphere_set(world);
   for (const StructureRow& row : workbench::structures()) {
     SCOPED_TRACE(row.name);
-    const StructurePointer structure = std::move(*row.build(set, 1));
+    const StructurePointer structure = std::move(*row.build(set, {}, 1));
     const workbench::StructureFacts facts = structure->facts();
     const bool brute = std::string(row.name) == "brute";
     if (!brute) {
@@ -208,6 +208,74 @@ TEST(Structures, CountTheirSteps) {
   }
 }
 
+TEST(Structures, KeepTheirBitsWithAnyParameters) {
+  using workbench::StructureParameters;
+  const World world = test::random_world("clustered", 19, 1200, 1, 1e-3, 0.1);
+  const SphereSet set = test::sphere_set(world);
+  test::QueryRays rays(world, 23, [&](const Ray& ray) { return closest_hit(set, ray); });
+  RayBatch batch;
+  HitBatch hits;
+  for (int i = 0; i < 400; ++i) batch.push_back(rays.next());
+  hits.resize(batch.size());
+  for (const StructureRow& row : workbench::structures()) {
+    for (const StructureParameters& parameters : {StructureParameters{1, 0, 0}, StructureParameters{100, 0, 1},
+                                                  StructureParameters{0, 1, 0}, StructureParameters{2, 4, 40}}) {
+      SCOPED_TRACE(std::string(row.name) + " " + std::to_string(parameters.max_prims) + " " +
+                   std::to_string(parameters.max_depth));
+      const StructurePointer structure = std::move(*row.build(set, parameters, 1));
+      structure->closest_hits(batch.span(), RayOrder::any, hits.span());
+      for (std::int64_t i = 0; i < batch.size(); ++i) {
+        const Hit expected = closest_hit(set, batch.span().at(i));
+        ASSERT_EQ(hits.at(i).t, expected.t) << "ray " << i;
+        ASSERT_EQ(hits.at(i).sphere_id, expected.sphere_id) << "ray " << i;
+      }
+      if (parameters.max_depth > 0 && (row.takes & workbench::kTakesMaxDepth) != 0) {
+        // The wide tree has a root beside a single leaf, too.
+        const std::int64_t least = std::string(row.name) == "wide" ? 2 : 1;
+        EXPECT_LE(structure->facts().depth, std::max(parameters.max_depth, least));
+      }
+    }
+    // A parameter that a row names has an effect.
+    const auto nodes = [&](const StructureParameters& parameters) {
+      return std::move(*row.build(set, parameters, 1))->facts().nodes;
+    };
+    SCOPED_TRACE(row.name);
+    EXPECT_EQ((row.takes & workbench::kTakesMaxPrims) != 0, nodes({1, 0, 0}) > nodes({100, 0, 0}));
+    EXPECT_EQ((row.takes & workbench::kTakesMaxDepth) != 0, nodes({0, 2, 0}) < nodes({}));
+    EXPECT_EQ((row.takes & workbench::kTakesCandidates) != 0, nodes({0, 0, 1}) != nodes({0, 0, 50}));
+  }
+}
+
+TEST(Structures, PathsHaveTheCountedSteps) {
+  const World world = test::random_world("path", 29, 800, 10, 0.3, 0.9);
+  const SphereSet set = test::sphere_set(world);
+  test::QueryRays rays(world, 31, [&](const Ray& ray) { return closest_hit(set, ray); });
+  for (int i = 0; i < 100; ++i) {
+    const Ray ray = rays.next();
+    if (!is_valid(ray)) continue;
+    const Hit expected = closest_hit(set, ray);
+    for (const StructureRow& row : workbench::structures()) {
+      SCOPED_TRACE(row.name);
+      const StructurePointer structure = std::move(*row.build(set, {}, 1));
+      const workbench::RayPath path = structure->path_of_ray(ray, false);
+      const Work work = structure->work_of_ray(ray, false);
+      std::int64_t tests = 0, leaves = 0;
+      for (const workbench::PathStep& step : path) {
+        tests += std::ssize(step.sphere_ids);
+        leaves += step.is_leaf ? 1 : 0;
+      }
+      EXPECT_EQ(tests, work.sphere_tests);
+      // Brute force has no nodes, and a grid tests all spheres for a ray from very far away.
+      if (work.nodes > 0) {
+        EXPECT_EQ(std::ssize(path), work.nodes);
+        EXPECT_EQ(leaves, work.leaves);
+      }
+      EXPECT_EQ(path.empty() ? kNothing : path.back().best.sphere_id, expected.sphere_id);
+      EXPECT_EQ(path.empty() ? Hit{}.t : path.back().best.t, expected.t);
+    }
+  }
+}
+
 TEST(Structures, ExpectedStepsAreThoseOfRandomLines) {
   // Spheres too small to end many lines.
   const World world = test::random_world("dust", 13, 3000, 1, 1e-3, 1e-3);
@@ -231,7 +299,7 @@ TEST(Structures, ExpectedStepsAreThoseOfRandomLines) {
   }
   for (const StructureRow& row : workbench::structures()) {
     SCOPED_TRACE(row.name);
-    const StructurePointer structure = std::move(*row.build(set, 1));
+    const StructurePointer structure = std::move(*row.build(set, {}, 1));
     const workbench::StructureFacts facts = structure->facts();
     double nodes = 0, spheres = 0, met = 0;
     for (const Ray& line : lines) {

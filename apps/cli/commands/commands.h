@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bihive/compare/query_sets.h"
@@ -135,14 +136,29 @@ void run_stats(const StatsOptions& options);
 /// Structures compared by name (bihive/compare/structure.h).
 struct CompareOptions {
   InputOptions input;
-  std::vector<std::string> structures;      ///< empty: all
-  std::vector<workbench::QueryKind> kinds;  ///< empty: all
-  std::int64_t count = 65536;               ///< queries of a kind
-  std::int64_t threads = 1;
-  std::string output;  ///< the report, HTML; empty: none
+  std::string select;                        ///< only these spheres; empty: all
+  std::vector<std::string> structures;       ///< empty: all
+  std::vector<workbench::QueryKind> kinds;   ///< empty: all
+  std::int64_t count = 65536;                ///< queries of a kind
+  std::vector<int> threads{1, 0};            ///< a sweep and the path of a pixel's ray take the first one
+  std::vector<std::string> sweep;            ///< parameters with values: "max-prims=1,2,4"
+  std::optional<std::pair<int, int>> pixel;  ///< x, y of the primary picture: only the path of its ray
+  std::string output;                        ///< the report, HTML; empty: none
   bool json = false;
 };
 void run_compare(const CompareOptions& options);
+
+/// Parameters of a tree searched (bihive/compare/tune.h).
+struct TuneCommandOptions {
+  InputOptions input;
+  std::string select;  ///< only these spheres; empty: all
+  std::string structure = "wide";
+  std::vector<workbench::QueryKind> kinds;  ///< empty: all
+  std::int64_t count = 4096;                ///< queries of a kind
+  std::int64_t threads = 1;
+  bool json = false;
+};
+void run_tune(const TuneCommandOptions& options);
 
 struct TraceOptions {
   InputOptions input;

@@ -1,18 +1,21 @@
-// bihive compare: several structures on the same spheres, by counted steps and by time.
+// bihive compare and bihive tune: structures and their parameters on the same spheres, by counted steps and by time.
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "bihive/base/parallel.h"
 #include "bihive/compare/comparison.h"
 #include "bihive/compare/comparison_json.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
-#include "bihive/scene/framing.h"
-#include "bihive/simd/target.h"
+#include "bihive/job/selection.h"
 #include "commands/commands.h"
 #include "commands/compare_report.h"
+#include "commands/compare_text.h"
 #include "support/outputs.h"
 #include "support/request_files.h"
 #include "support/thread_reserve.h"
@@ -23,109 +26,171 @@ namespace {
 
 using workbench::Comparison;
 using workbench::KindResult;
-using workbench::StepStatistics;
 using workbench::StructureResult;
 
-std::string steps(const StepStatistics& statistics) {
-  return short_number(statistics.mean) + " / " + grouped(std::llround(statistics.most_of_99));
-}
-
-std::string table_of_builds(const Comparison& comparison) {
-  std::string text = fmt::format("{:<12}{:>12}{:>14}{:>8}{:>14}{:>14}\n", "structure", "build", "bytes/sphere",
-                                 "levels", "nodes", "listed/sphere");
-  for (const StructureResult& one : comparison.structures) {
-    const auto spheres = static_cast<double>(comparison.spheres);
-    text += fmt::format("{:<12}{:>12}{:>14}{:>8}{:>14}{:>14}\n", one.row.name, readable_ms(one.build_ms),
-                        short_number(static_cast<double>(one.facts.bytes) / spheres), one.facts.depth,
-                        grouped(one.facts.nodes), short_number(static_cast<double>(one.facts.references) / spheres));
+// Only these spheres, as a set of their own: what rays meet, without colours and names.
+void keep_selected(Scene& scene, const std::vector<std::uint8_t>& mask) {
+  const SphereSet& all = scene.spheres;
+  StoredSpheres kept;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (mask[i] == 0) continue;
+    kept.x.push_back(all.x()[i]);
+    kept.y.push_back(all.y()[i]);
+    kept.z.push_back(all.z()[i]);
+    kept.r.push_back(all.r()[i]);
   }
-  return text;
-}
-
-std::string table_of_kind(const Comparison& comparison, std::size_t k) {
-  const workbench::QueryKindRow& kind = workbench::row_of(comparison.kinds[k]);
-  if (comparison.queries[k] == 0) return fmt::format("{}: none; no primary ray leads to one\n", kind.name);
-  const bool points = kind.kind == workbench::QueryKind::points;
-  std::string text =
-      fmt::format("{}: {} {}; steps as mean / 99 %; correlation of expected and counted cost {}\n", kind.name,
-                  grouped(comparison.queries[k]), points ? "points" : "rays", short_number(comparison.correlation[k]));
-  text += fmt::format("{:<12}{:>10}{:>16}{:>18}{:>20}{:>10}{:>10}\n", "structure", points ? "M/s" : "Mray/s", "nodes",
-                      "box tests", "sphere tests", "expected", "counted");
-  for (const StructureResult& one : comparison.structures) {
-    const KindResult& result = one.kinds[k];
-    text += fmt::format("{:<12}{:>10}{:>16}{:>18}{:>20}{:>10}{:>10}", one.row.name, short_number(result.rate()),
-                        steps(result.nodes), steps(result.box_tests), steps(result.sphere_tests),
-                        short_number(one.facts.expected_cost()), short_number(result.cost));
-    if (result.queries < comparison.queries[k]) text += fmt::format("  of {} alone", grouped(result.queries));
-    text += "\n";
-  }
-  return text;
-}
-
-std::string text_of(const Comparison& comparison, const std::string& name) {
-  std::string text = fmt::format("{}: {} sphere{}, {} thread{}, {}\n{}\n\n", escaped(name), grouped(comparison.spheres),
-                                 comparison.spheres == 1 ? "" : "s", comparison.threads,
-                                 comparison.threads == 1 ? "" : "s", active_target(), answer_of(comparison));
-  text += table_of_builds(comparison);
-  for (std::size_t k = 0; k < comparison.kinds.size(); ++k) text += "\n" + table_of_kind(comparison, k);
-  if (comparison.same_bits()) text += "\nEvery answer has the bits of the reference BIH.\n";
-  return text;
+  SphereSet set = SphereSet::from_stored(std::move(kept), all.scale_exponent(), all.origin());
+  Scene without_spheres;
+  without_spheres.name = scene.name;
+  without_spheres.camera = scene.camera;
+  without_spheres.lights = scene.lights;
+  without_spheres.spheres = std::move(set);
+  scene = std::move(without_spheres);
 }
 
 // A camera and a light for spheres without.
 void complete(Input& input) {
   Scene& scene = input.scene;
-  if (!input.has_camera) {
-    constexpr int kSide = 256;  // of any square picture
-    scene.camera = frame_spheres(scene.spheres, ViewFrom::front, scene.camera.fov_deg, kSide, kSide);
-  }
-  if (!input.has_lights || scene.lights.empty()) scene.lights = {light_behind(scene.camera)};
+  workbench::complete_for_queries(scene, input.has_camera, input.has_lights);
   if (!scene.clips.empty() || scene.sticks.total_size(scene.spheres) > 0)
     warn("structures are built from whole spheres: clips and sticks do not count");
 }
 
 // A structure that answers wrongly is a fault of this program.
-void fail_if_different(const Comparison& comparison) {
+[[noreturn]] void fail_of_bits(const char* structure, std::int64_t different, const std::string& queries) {
+  fail({fmt::format("{} answers {} of {} with other bits than the reference BIH", structure, grouped(different),
+                    queries),
+        "", 0, 0, "please report it, with the input"});
+}
+
+void print_and_write(const CompareOptions& options, const std::string& html, const std::string& json,
+                     const std::string& text) {
+  if (!options.output.empty()) write_together({{output_path(options.output), html}});
+  if (options.json)
+    print(json + "\n");
+  else
+    print_report(text, outputs_of(options));
+}
+
+void compare(const CompareOptions& options, const Scene& scene) {
+  workbench::ComparisonOptions wanted;
+  wanted.structures = options.structures;
+  wanted.kinds = options.kinds;
+  wanted.count = options.count;
+  wanted.threads = options.threads;
+  Comparison comparison;
+  {
+    Progress progress("comparing");
+    wanted.progress = [&progress](double done) { progress.update(done); };
+    comparison = value_or_fail(workbench::compare_structures(scene, wanted));
+  }
+  print_and_write(options, options.output.empty() ? "" : comparison_html(comparison, scene.name),
+                  options.json ? workbench::comparison_json(comparison, scene.name) : "",
+                  comparison_text(comparison, scene.name));
   for (const StructureResult& one : comparison.structures)
     for (const KindResult& kind : one.kinds)
       if (kind.different > 0)
-        fail({fmt::format("{} answers {} of {} queries ({}) with other bits than the reference BIH", one.row.name,
-                          grouped(kind.different), grouped(kind.queries), workbench::row_of(kind.kind).name),
-              "", 0, 0, "please report it, with the input"});
+        fail_of_bits(one.row.name, kind.different,
+                     fmt::format("{} queries ({})", grouped(kind.queries), workbench::row_of(kind.kind).name));
+}
+
+void sweep(const CompareOptions& options, const Scene& scene) {
+  workbench::SweepOptions wanted;
+  for (const std::string& text : options.sweep)
+    if (const Status status = workbench::add_parameter_values(text, wanted.values); !status)
+      fail_usage("--sweep: " + status.error().message, status.error().hint);
+  wanted.structures = options.structures;
+  wanted.kinds = options.kinds;
+  wanted.count = options.count;
+  wanted.threads = options.threads.front();
+  workbench::Sweep swept;
+  {
+    Progress progress("sweeping");
+    wanted.progress = [&progress](double done) { progress.update(done); };
+    swept = value_or_fail(workbench::sweep_parameters(scene, wanted));
+  }
+  print_and_write(options, options.output.empty() ? "" : sweep_html(swept, scene.name),
+                  options.json ? workbench::sweep_json(swept, scene.name) : "", sweep_text(swept, scene.name));
+  for (const workbench::SweptStructure& one : swept.structures)
+    for (const workbench::SweepPoint& point : one.points)
+      if (point.different > 0)
+        fail_of_bits(one.row.name, point.different, "its queries with " + text_of(point.parameters));
+}
+
+void trace_pixel(const CompareOptions& options, const Scene& scene) {
+  const int side = workbench::side_of_primary_px(options.count);
+  const auto [x, y] = *options.pixel;
+  if (x >= side || y >= side)
+    fail_usage(fmt::format("--pixel {},{} lies outside the picture of {} x {} pixels", x, y, side, side),
+               "--rays-count N has a picture of about N pixels");
+  const Ray ray = workbench::primary_ray(scene, side, x, y);
+  const auto paths =
+      value_or_fail(workbench::paths_of_ray(scene.spheres, options.structures, ray, options.threads.front()));
+  if (options.json)
+    print(workbench::ray_paths_json(paths, scene.name) + "\n");
+  else
+    print(ray_paths_text(paths, scene.name, *options.pixel, side));
+}
+
+void check_usage(const CompareOptions& options) {
+  refuse_copies(options.input, "structures are built from the stored spheres");
+  if (options.json && on_standard_output(outputs_of(options)))
+    fail_usage("--json and a report on - would share the standard output");
+  if (options.pixel && (!options.sweep.empty() || !options.output.empty()))
+    fail_usage("--pixel prints the path of one ray", "leave out --sweep and -o");
+  workbench::ParameterValues values;
+  for (const std::string& text : options.sweep)
+    if (const Status status = workbench::add_parameter_values(text, values); !status)
+      fail_usage("--sweep: " + status.error().message, status.error().hint);
+}
+
+Scene spheres_to_compare(const InputOptions& options, const std::string& select,
+                         const std::vector<std::string>& outputs) {
+  Input input = load_input(options);
+  check_outputs(outputs, input.files, /*are_text=*/true);
+  if (!select.empty()) {
+    const std::vector<std::uint8_t> mask = selected_or_fail(input.scene.spheres, select, "select");
+    keep_selected(input.scene, mask);
+    if (input.scene.spheres.empty()) fail({"no sphere is selected by " + select, "", 0, 0, "bihive select counts"});
+  }
+  complete(input);
+  return std::move(input.scene);
 }
 
 }  // namespace
 
 void run_compare(const CompareOptions& options) {
-  refuse_copies(options.input, "structures are built from the stored spheres");
-  if (options.json && on_standard_output(outputs_of(options)))
-    fail_usage("--json and a report on - would share the standard output");
+  check_usage(options);
   check_outputs(outputs_of(options), inputs_of(options), /*are_text=*/true);
-  Input input = load_input(options.input);
-  check_outputs(outputs_of(options), input.files, /*are_text=*/true);
-  complete(input);
-  renew_group_limit_for_threads(options.threads);
+  const Scene scene = spheres_to_compare(options.input, options.select, outputs_of(options));
+  std::int64_t threads = 1;
+  for (const int count : options.threads)
+    threads = std::max<std::int64_t>(threads, count > 0 ? count : hardware_threads());
+  renew_group_limit_for_threads(threads);
+  if (options.pixel)
+    trace_pixel(options, scene);
+  else if (!options.sweep.empty())
+    sweep(options, scene);
+  else
+    compare(options, scene);
+}
 
-  workbench::ComparisonOptions wanted;
-  wanted.structures = options.structures;
+void run_tune(const TuneCommandOptions& options) {
+  refuse_copies(options.input, "trees are built from the stored spheres");
+  const Scene scene = spheres_to_compare(options.input, options.select, {});
+  renew_group_limit_for_threads(options.threads);
+  workbench::TuneOptions wanted;
+  wanted.structure = options.structure;
   wanted.kinds = options.kinds;
   wanted.count = options.count;
   wanted.threads = static_cast<int>(options.threads);
-  Comparison comparison;
+  workbench::Tuning tuning;
   {
-    Progress progress("comparing");
+    Progress progress("tuning");
     wanted.progress = [&progress](double done) { progress.update(done); };
-    comparison = value_or_fail(workbench::compare_structures(input.scene, wanted));
+    tuning = value_or_fail(workbench::tune_structure(scene, wanted));
   }
-  if (!options.output.empty()) {
-    const std::string html = comparison_html(comparison, input.scene.name);
-    write_together({{output_path(options.output), html}});
-  }
-  if (options.json)
-    print(workbench::comparison_json(comparison, input.scene.name) + "\n");
-  else
-    print_report(text_of(comparison, input.scene.name), outputs_of(options));
-  fail_if_different(comparison);
+  print(options.json ? workbench::tuning_json(tuning, scene.name) + "\n" : tuning_text(tuning, scene.name));
 }
 
 }  // namespace bihive::cli

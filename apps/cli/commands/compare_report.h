@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bihive/compare/comparison.h"
+#include "bihive/compare/sweep.h"
 
 namespace bihive {
 
@@ -15,12 +16,8 @@ std::string_view comparison_template();
 
 namespace bihive::cli {
 
-/// A number with about three digits; "-" for NaN.
-std::string short_number(double value);
-
-/// The answer in a sentence: which structure is the fastest, and by how much.
-std::string answer_of(const workbench::Comparison& comparison);
-
 /// `name` is the name of the input.
 std::string comparison_html(const workbench::Comparison& comparison, const std::string& name);
+std::string sweep_html(const workbench::Sweep& sweep, const std::string& name);
+
 }  // namespace bihive::cli

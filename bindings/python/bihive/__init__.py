@@ -13,6 +13,7 @@ Tree                hits of rays, spheres near points, pairs of spheres
 view                the page in a browser, with spheres from memory
 select, stats       spheres that match an expression; statistics of the trees
 distance            between centres of spheres; angle, dihedral
+compare             trees and grids on the same spheres, by steps and by time
 measure             exact area and volume of the union of spheres; sasa, volume, porosity, contacts, buried_area
 colour_map          colours of numbers; linear: linear light as colours
 Error               the base of all exceptions of this package
@@ -21,6 +22,7 @@ Error               the base of all exceptions of this package
 from ._bihive import __version__
 from ._camera import Look, Orthographic, Perspective, Style
 from ._colours import linear
+from ._compare import compare
 from ._errors import Error, FileError, InputError, InputWarning, MissingError, UsageError
 from ._figures import Verdict, again, verify
 from ._film import film
@@ -62,6 +64,7 @@ __all__ = [
     "angle",
     "buried_area",
     "colour_map",
+    "compare",
     "contacts",
     "convert",
     "dihedral",

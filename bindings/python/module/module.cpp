@@ -6,6 +6,7 @@
 
 #include "bihive/base/version.h"
 #include "bihive/simd/target.h"
+#include "compare.h"
 #include "errors.h"
 #include "film_file.h"
 #include "measures.h"
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_bihive, module) {
   bihive::python::bind_trees(module);
   bihive::python::bind_film_files(module);
   bihive::python::bind_measures(module);
+  bihive::python::bind_comparisons(module);
   module.def("check_environment", [] { bihive::python::value_of(bihive::check_target_environment()); });
   module.def("target", [] { return std::string(bihive::active_target()); });
   module.attr("__version__") = std::string(bihive::version());

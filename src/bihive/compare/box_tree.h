@@ -53,7 +53,7 @@ void traverse(const BoxTree& tree, const Entry& entry, const Limit& limit, const
   for (;;) {
     const BoxNode& node = tree.nodes[at.node];
     Waiting next{0, kNever};
-    counter.node();
+    counter.node(node.is_leaf());
     if (node.is_leaf()) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
         if (visit(std::int64_t{tree.sphere_ids[i]})) return;
@@ -109,9 +109,5 @@ class BoxTreeStructure final : public ByRay<BoxTreeStructure> {
  private:
   BoxTree tree_;
 };
-
-/// The builders. Errors: more than 2^32 - 1 spheres, or not enough memory.
-Result<StructurePointer> build_bvh_sah(const SphereSet& spheres, int threads);
-Result<StructurePointer> build_bvh_lbvh(const SphereSet& spheres, int threads);
 
 }  // namespace bihive::workbench

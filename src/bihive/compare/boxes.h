@@ -37,6 +37,40 @@ inline Aabb outward_box(const SphereSet& spheres, std::int64_t id) {
   return box;
 }
 
+/// The box of that part of a ball which lies in a cell, rounded outward; empty where the ball does not reach into the
+/// cell. The radius is 2^-40 larger: more than rounding can take from the half chord below, and little enough to list
+/// no ball in cells far from it.
+inline Aabb clipped_box(const SphereSet& spheres, std::int64_t id, const Aabb& cell) {
+  const Vec3d centre = spheres.stored_centre(id);
+  const double radius = spheres.stored_radius(id) + 0x1p-40;
+  // Square the distances between the centre and the cell along each axis.
+  Vec3d beyond_squared;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double beyond = std::max({double(cell.lo[axis]) - centre[axis], centre[axis] - double(cell.hi[axis]), 0.0});
+    beyond_squared[axis] = beyond * beyond;
+  }
+  // Along each axis the ball reaches as far as half a chord at the nearest position across it.
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double across_squared = beyond_squared[(axis + 1) % 3] + beyond_squared[(axis + 2) % 3];
+    if (across_squared > radius * radius) return {};
+    const double half_chord = std::sqrt(radius * radius - across_squared);
+    box.lo[axis] = std::max(cell.lo[axis], rounded_down(centre[axis] - half_chord));
+    box.hi[axis] = std::min(cell.hi[axis], rounded_up(centre[axis] + half_chord));
+  }
+  return box.empty() ? Aabb{} : box;
+}
+
+/// The part of a box on one side of a plane that crosses it.
+inline Aabb part_below(Aabb cell, int axis, float plane) {
+  cell.hi[axis] = plane;
+  return cell;
+}
+inline Aabb part_above(Aabb cell, int axis, float plane) {
+  cell.lo[axis] = plane;
+  return cell;
+}
+
 /// 0 for an empty box.
 inline double half_surface(const Aabb& box) {
   if (box.empty()) return 0;
@@ -103,6 +137,14 @@ inline double least_distance(Vec3d point, const Aabb& box, double pad) {
     if (beyond > 0) outside_squared += beyond * beyond;
   }
   return (deepest > 0 ? std::sqrt(outside_squared) : deepest) - pad;
+}
+
+/// The same for structures that list a ball in every cell that it reaches into. A ball that contains the point is
+/// listed in a cell that does so, too, which -inf makes the first one. Any other ball's nearest position is as far as
+/// the nearest cell that lists it, or farther.
+inline double least_distance_to_cell(Vec3d point, const Aabb& cell, double pad) {
+  const double distance = least_distance(point, cell, pad);
+  return distance > 0 ? distance : -std::numeric_limits<double>::infinity();
 }
 
 }  // namespace bihive::workbench

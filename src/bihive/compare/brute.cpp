@@ -36,7 +36,7 @@ class Brute final : public ByRay<Brute> {
 
 }  // namespace
 
-Result<StructurePointer> build_brute(const SphereSet& spheres, int) {
+Result<StructurePointer> build_brute(const SphereSet& spheres, const StructureParameters&, int) {
   return StructurePointer(std::make_unique<Brute>(spheres));
 }
 

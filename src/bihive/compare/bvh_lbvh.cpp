@@ -9,7 +9,7 @@
 namespace bihive::workbench {
 namespace {
 
-constexpr std::uint32_t kLbvhLeaf = 4;
+constexpr std::uint32_t kLbvhLeaf = 4;  // spheres
 
 // The first entry of a range whose code has the highest differing bit set; the middle if all codes are equal.
 std::uint32_t split_of(const std::vector<MortonSphere>& list, std::uint32_t begin, std::uint32_t end) {
@@ -21,7 +21,7 @@ std::uint32_t split_of(const std::vector<MortonSphere>& list, std::uint32_t begi
   return static_cast<std::uint32_t>(middle - list.begin());
 }
 
-BoxTree build(const SphereSet& spheres) {
+BoxTree build(const SphereSet& spheres, std::uint32_t max_prims) {
   const std::vector<MortonSphere> list = along_the_z_curve(spheres);
   BoxTree tree;
   for (const MortonSphere& one : list) tree.sphere_ids.push_back(one.id);
@@ -38,7 +38,7 @@ BoxTree build(const SphereSet& spheres) {
   while (!pending.empty()) {
     const Range range = pending.back();
     pending.pop_back();
-    if (range.end - range.begin <= kLbvhLeaf) {
+    if (range.end - range.begin <= max_prims) {
       tree.nodes[range.node].first = range.begin;
       tree.nodes[range.node].count = range.end - range.begin;
       continue;
@@ -57,9 +57,10 @@ BoxTree build(const SphereSet& spheres) {
 
 }  // namespace
 
-Result<StructurePointer> build_bvh_lbvh(const SphereSet& spheres, int) {
+Result<StructurePointer> build_bvh_lbvh(const SphereSet& spheres, const StructureParameters& parameters, int) {
+  const auto max_prims = parameters.max_prims > 0 ? static_cast<std::uint32_t>(parameters.max_prims) : kLbvhLeaf;
   return build_or_error(spheres, "bvh-lbvh", [&]() -> StructurePointer {
-    return std::make_unique<BoxTreeStructure>(spheres, build(spheres));
+    return std::make_unique<BoxTreeStructure>(spheres, build(spheres, max_prims));
   });
 }
 

@@ -1,7 +1,6 @@
 // bvh-sah: a BVH built from the top by the surface area heuristic, with centres in bins [Wald2007].
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "bihive/compare/box_tree.h"
@@ -11,7 +10,7 @@ namespace bihive::workbench {
 namespace {
 
 constexpr int kBins = 16;
-constexpr std::uint32_t kSahLeaf = 8;  // unless centres coincide
+constexpr std::int64_t kSahLeaf = 8;  // unless centres coincide
 // Past this level ranges are halved by count, which takes at most 32 more.
 constexpr std::int64_t kLevelsByCost = 80;
 constexpr double kNodeCost = 1, kSphereCost = 1;
@@ -42,7 +41,11 @@ struct Split {
 
 class Builder {
  public:
-  explicit Builder(const SphereSet& spheres) : spheres_(spheres) {
+  Builder(const SphereSet& spheres, const StructureParameters& parameters)
+      : spheres_(spheres),
+        max_prims_(parameters.max_prims > 0 ? parameters.max_prims : kSahLeaf),
+        max_depth_(parameters.max_depth > 0 ? parameters.max_depth : kMostBoxLevels),
+        bin_count_(parameters.candidates > 0 ? static_cast<int>(parameters.candidates) + 1 : kBins) {
     ids_.resize(static_cast<std::size_t>(spheres.size()));
     std::iota(ids_.begin(), ids_.end(), 0U);
   }
@@ -77,7 +80,11 @@ class Builder {
 
  private:
   const SphereSet& spheres_;
+  const std::int64_t max_prims_, max_depth_;
+  const int bin_count_;
   std::vector<std::uint32_t> ids_;
+  std::vector<Bin> bins_;      // of one decision
+  std::vector<double> right_;  // costs of all bins from each one on
 
   // Orders the range and returns where its right half begins; range.begin: it is a leaf.
   std::uint32_t split(const SahRange& range) {
@@ -92,13 +99,13 @@ class Builder {
       }
       all.add(outward_box(spheres_, ids_[i]));
     }
-    if (range.size() == 1 || lo == hi) return range.begin;
+    if (range.size() == 1 || lo == hi || range.level >= max_depth_) return range.begin;
 
     // Try each plane between two bins along each axis.
     const Split best = range.level < kLevelsByCost ? best_split(range, lo, hi) : Split{};
     const double surface = half_surface(all);
     const bool pays = surface * kNodeCost + best.cost < surface * range.size() * kSphereCost;
-    if (!pays && range.size() <= kSahLeaf) return range.begin;
+    if (!pays && range.size() <= max_prims_) return range.begin;
     if (best.cost == std::numeric_limits<double>::infinity()) return halve(range, lo, hi);
     const auto middle = std::partition(at(range.begin), at(range.end), [&](std::uint32_t id) {
       return bin_of(id, best.axis, lo[best.axis], hi[best.axis]) < best.bin;
@@ -106,26 +113,27 @@ class Builder {
     return static_cast<std::uint32_t>(middle - ids_.begin());
   }
 
-  Split best_split(const SahRange& range, Vec3d lo, Vec3d hi) const {
+  Split best_split(const SahRange& range, Vec3d lo, Vec3d hi) {
+    const auto bin_count = static_cast<std::size_t>(bin_count_);
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
       if (lo[axis] == hi[axis]) continue;
-      std::array<Bin, kBins> bins;
+      bins_.assign(bin_count, {});
       for (std::uint32_t i = range.begin; i < range.end; ++i)
-        bins[static_cast<std::size_t>(bin_of(ids_[i], axis, lo[axis], hi[axis]))].add(
+        bins_[static_cast<std::size_t>(bin_of(ids_[i], axis, lo[axis], hi[axis]))].add(
             {outward_box(spheres_, ids_[i]), 1});
       // Costs of all bins from each one on; then the same up to each one.
-      std::array<double, kBins> right{};
+      right_.assign(bin_count, 0);
       Bin sum;
-      for (std::size_t bin = kBins; bin-- > 1;) {
-        sum.add(bins[bin]);
-        right[bin] = sum.count > 0 ? sum.cost() : std::numeric_limits<double>::infinity();
+      for (std::size_t bin = bin_count; bin-- > 1;) {
+        sum.add(bins_[bin]);
+        right_[bin] = sum.count > 0 ? sum.cost() : std::numeric_limits<double>::infinity();
       }
       sum = {};
-      for (std::size_t bin = 1; bin < kBins; ++bin) {
-        sum.add(bins[bin - 1]);
+      for (std::size_t bin = 1; bin < bin_count; ++bin) {
+        sum.add(bins_[bin - 1]);
         if (sum.count == 0) continue;
-        const double cost = sum.cost() + right[bin];
+        const double cost = sum.cost() + right_[bin];
         if (cost < best.cost) best = {cost, axis, static_cast<int>(bin)};
       }
     }
@@ -134,7 +142,7 @@ class Builder {
 
   int bin_of(std::uint32_t id, int axis, double lo, double hi) const {
     const double share = (spheres_.stored_centre(id)[axis] - lo) / (hi - lo);
-    return std::min(kBins - 1, static_cast<int>(share * kBins));
+    return std::min(bin_count_ - 1, static_cast<int>(share * bin_count_));
   }
 
   // By count along the longest axis of the centres.
@@ -154,9 +162,9 @@ class Builder {
 
 }  // namespace
 
-Result<StructurePointer> build_bvh_sah(const SphereSet& spheres, int) {
+Result<StructurePointer> build_bvh_sah(const SphereSet& spheres, const StructureParameters& parameters, int) {
   return build_or_error(spheres, "bvh-sah", [&]() -> StructurePointer {
-    return std::make_unique<BoxTreeStructure>(spheres, Builder(spheres).build());
+    return std::make_unique<BoxTreeStructure>(spheres, Builder(spheres, parameters).build());
   });
 }
 

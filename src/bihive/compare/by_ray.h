@@ -14,17 +14,39 @@ namespace bihive::workbench {
 
 /// Counts nothing, and costs nothing.
 struct NoCount {
-  void node() {}
+  void node(bool) {}
   void box_test() {}
-  void sphere_test() {}
+  void sphere_test(std::int64_t) {}
+  void answer(const Hit&) {}
 };
 
 struct Count {
   Work work;
 
-  void node() { ++work.nodes; }
+  void node(bool is_leaf) {
+    ++work.nodes;
+    work.leaves += is_leaf ? 1 : 0;
+  }
   void box_test() { ++work.box_tests; }
-  void sphere_test() { ++work.sphere_tests; }
+  void sphere_test(std::int64_t) { ++work.sphere_tests; }
+  void answer(const Hit&) {}
+};
+
+/// Keeps each step.
+struct Record {
+  RayPath path;
+  std::int64_t box_tests = 0;  // since the last node
+
+  void node(bool is_leaf) {
+    path.push_back({is_leaf, box_tests, {}, path.empty() ? Hit{} : path.back().best});
+    box_tests = 0;
+  }
+  void box_test() { ++box_tests; }
+  void sphere_test(std::int64_t id) {
+    if (path.empty()) node(true);
+    path.back().sphere_ids.push_back(id);
+  }
+  void answer(const Hit& best) { path.back().best = best; }
 };
 
 /// The nearest sphere so far, by the distance in stored units.
@@ -70,6 +92,14 @@ class ByRay : public Structure {
       answer<false>(ray, counter);
     return counter.work;
   }
+  RayPath path_of_ray(const Ray& ray, bool any_hit) const override {
+    Record record;
+    if (any_hit)
+      answer<true>(ray, record);
+    else
+      answer<false>(ray, record);
+    return std::move(record.path);
+  }
   Work work_of_point(Vec3d point) const override {
     Count counter;
     nearest(point, counter);
@@ -82,13 +112,15 @@ class ByRay : public Structure {
   /// Tests a ray against a sphere; true where the traversal is over.
   template <class Answer, class Counter>
   bool test(const ScaledRay& ray, std::int64_t id, Answer& answer, Counter& counter) const {
-    counter.sphere_test();
-    return answer.take(sphere_hit(ray, spheres_.stored_centre(id), spheres_.stored_radius(id)), id);
+    counter.sphere_test(id);
+    const bool ends = answer.take(sphere_hit(ray, spheres_.stored_centre(id), spheres_.stored_radius(id)), id);
+    counter.answer(answer.best);
+    return ends;
   }
   /// Tests a point against a sphere.
   template <class Counter>
   void test(Vec3d point, std::int64_t id, NearestSphere& nearest, Counter& counter) const {
-    counter.sphere_test();
+    counter.sphere_test(id);
     nearest.take(sphere_distance(point, spheres_.stored_centre(id), spheres_.stored_radius(id), DistanceTo::surface),
                  id);
   }

@@ -8,6 +8,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/base/watch.h"
+#include "bihive/compare/cost_fit.h"
 #include "bihive/compare/query_sets.h"
 #include "bihive/compare/structure.h"
 #include "bihive/scene/scene.h"
@@ -18,8 +19,10 @@ struct ComparisonOptions {
   std::vector<std::string> structures;  ///< names, without repetition; empty: all
   std::vector<QueryKind> kinds;         ///< without repetition; empty: all
   std::int64_t count = 65536;           ///< queries of a kind, 1 to 2^30
-  int threads = 1;                      ///< for queries and, where a builder uses them, for builds; 0: all
-  ProgressCallback progress;            ///< on the caller's thread
+  /// Numbers of threads, each for all queries; the first one also for counts and, where a builder uses threads, for
+  /// builds. 0: all. Repeated numbers count once.
+  std::vector<int> threads{1, 0};
+  ProgressCallback progress;  ///< on the caller's thread
 };
 
 /// Of one step per query.
@@ -34,43 +37,54 @@ struct KindResult {
   /// Queries answered: fewer than there are if they would take the structure too many steps; 0: there are none, and
   /// nothing below is set.
   std::int64_t queries = 0;
-  double ms = 0;  ///< of all of them once
-  StepStatistics nodes, box_tests, sphere_tests;
+  std::vector<double> ms;  ///< of all of them once, for each entry of Comparison::threads
+  StepStatistics nodes, leaves, box_tests, sphere_tests;
   double cost = 0;             ///< mean of Work::cost()
   std::int64_t different = 0;  ///< queries whose answer differs from that of the reference BIH in some bit
 
-  /// Millions per second.
-  double rate() const { return static_cast<double>(queries) / ms / 1000; }
+  /// Millions per second, by entry of Comparison::threads; NaN without queries.
+  double rate(std::size_t threads = 0) const {
+    return queries > 0 ? static_cast<double>(queries) / ms[threads] / 1000 : std::numeric_limits<double>::quiet_NaN();
+  }
 };
 
 struct StructureResult {
   StructureRow row;
   double build_ms = 0;
+  /// Resident memory that the build added at its peak; -1 where the system does not tell. Small builds may take all of
+  /// it from memory that the process holds.
+  std::int64_t peak_bytes = -1;
   StructureFacts facts;
   std::vector<KindResult> kinds;  ///< in the order of ComparisonOptions::kinds
+  /// Of its steps on one thread, from four groups of each kind's queries, by their number of steps. Those of the wide
+  /// tree are fitted to the steps of a scalar traversal.
+  CostFit fit;
 
   bool same_bits() const;
 };
 
 struct Comparison {
   std::int64_t spheres = 0;
-  int threads = 0;  ///< never 0
+  std::vector<int> threads;  ///< at least one, none of them 0
   std::vector<QueryKind> kinds;
   std::vector<std::int64_t> queries;  ///< made, of each kind
   std::vector<StructureResult> structures;
   /// For each kind: the correlation (Pearson's r) between StructureFacts::expected_cost() and the counted cost over the
   /// structures that have nodes; NaN with fewer than three of them.
   std::vector<double> correlation;
+  /// The same between expected_cost() and the time of a query on the first number of threads.
+  std::vector<double> time_correlation;
 
   bool same_bits() const;
-  /// The structure with the greatest rate; null: no such queries.
+  /// The structure with the greatest rate on the first number of threads; null: no such queries.
   const StructureResult* fastest(std::size_t kind) const;
 };
 
 /// Builds each structure once, counts the steps of each query, answers all and compares every bit with the answers of
-/// the reference BIH, and times the answers: the median of up to three rounds. A structure that would need more than
-/// 2^28 steps for a kind takes an evenly spaced sample. Counts and answers depend on the scene and the options alone.
-/// The spheres must have no images. Error: an unknown structure, or one that cannot be built.
+/// the reference BIH, and times the answers for each number of threads: the median of up to three rounds. A structure
+/// that would need more than 2^28 steps for a kind takes an evenly spaced sample. Counts and answers depend on the
+/// scene and the options alone. The spheres must have no images. Error: an unknown structure, or one that cannot be
+/// built.
 Result<Comparison> compare_structures(const Scene& scene, const ComparisonOptions& options);
 
 }  // namespace bihive::workbench

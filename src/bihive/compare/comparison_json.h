@@ -1,14 +1,21 @@
-// A comparison as JSON.
+// What bihive compare and bihive tune measured, as JSON: docs/comparison.schema.json, docs/sweep.schema.json,
+// docs/tuning.schema.json and docs/ray_paths.schema.json describe the objects.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bihive/compare/comparison.h"
+#include "bihive/compare/ray_path.h"
+#include "bihive/compare/sweep.h"
+#include "bihive/compare/tune.h"
 
 namespace bihive::workbench {
 
-/// One object over several lines, without a line break at the end, as docs/comparison.schema.json describes it. `name`
-/// is the name of the input. Unknown numbers are null.
+/// `name` is that of the input.
 std::string comparison_json(const Comparison& comparison, const std::string& name);
+std::string sweep_json(const Sweep& sweep, const std::string& name);
+std::string tuning_json(const Tuning& tuning, const std::string& name);
+std::string ray_paths_json(const std::vector<StructurePath>& paths, const std::string& name);
 
 }  // namespace bihive::workbench

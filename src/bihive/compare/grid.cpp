@@ -71,7 +71,7 @@ class Grid final : public ByRay<Grid> {
     }
 
     for (;;) {
-      counter.node();
+      counter.node(first_of(cell) < end_of(cell));
       for (std::uint32_t i = first_of(cell); i < end_of(cell); ++i)
         if (test(ray, std::int64_t{ids_[i]}, answer, counter)) return;
       // Cross the nearest plane, unless the answer lies before it.
@@ -106,7 +106,7 @@ class Grid final : public ByRay<Grid> {
             }
             any = true;
             const Cell cell{x, y, z};
-            counter.node();
+            counter.node(first_of(cell) < end_of(cell));
             for (std::uint32_t i = first_of(cell); i < end_of(cell); ++i)
               test(point, std::int64_t{ids_[i]}, nearest, counter);
           }
@@ -233,7 +233,7 @@ class Grid final : public ByRay<Grid> {
 
 }  // namespace
 
-Result<StructurePointer> build_grid(const SphereSet& spheres, int) {
+Result<StructurePointer> build_grid(const SphereSet& spheres, const StructureParameters&, int) {
   return build_or_error(
       spheres, "grid", [&]() -> StructurePointer { return std::make_unique<Grid>(spheres); }, kMostEntries);
 }

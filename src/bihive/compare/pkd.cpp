@@ -47,7 +47,7 @@ class Pkd final : public ByRay<Pkd> {
     facts.bytes = static_cast<std::int64_t>(sizeof(Pkd) + ids_.capacity() * (2 * sizeof(std::uint32_t) + 1));
     facts.nodes = facts.references = spheres().size();
     for (std::size_t k = ids_.size(); k > 0; k /= 2) ++facts.depth;
-    for (std::size_t k = 0; k < ids_.size(); ++k) facts.leaves += 2 * k + 1 < ids_.size() ? 0 : 1;
+    for (std::size_t k = 0; k < ids_.size(); ++k) facts.leaves += is_leaf(k) ? 1 : 0;
     const double whole = half_surface(box_);
     if (!(whole > 0)) return facts;
     facts.expected_nodes = 0;
@@ -85,8 +85,8 @@ class Pkd final : public ByRay<Pkd> {
     std::array<Waiting, kMostLevelsOfPkd> waiting;
     std::size_t waiting_count = 0;
     for (;;) {
-      counter.node();
       const std::size_t k = at.node;
+      counter.node(is_leaf(k));
       if (test(ray, std::int64_t{ids_[k]}, answer, counter)) return;
 
       // Go to the child on the ray's near side first.
@@ -116,8 +116,8 @@ class Pkd final : public ByRay<Pkd> {
     std::size_t waiting_count = 0;
     Waiting at{0, -std::numeric_limits<double>::infinity()};
     for (;;) {
-      counter.node();
       const std::size_t k = at.node;
+      counter.node(is_leaf(k));
       test(point, std::int64_t{ids_[k]}, nearest, counter);
       const std::size_t left = 2 * k + 1, right = left + 1;
       const double beyond = point[axes_[k]] - split(k);
@@ -141,6 +141,7 @@ class Pkd final : public ByRay<Pkd> {
   std::vector<std::uint8_t> axes_;
   std::vector<float> largest_;  // radius of a sphere and all below it
 
+  bool is_leaf(std::size_t k) const { return 2 * k + 1 >= ids_.size(); }
   double split(std::size_t k) const { return spheres().stored_centre(ids_[k])[axes_[k]]; }
   // How far the spheres of the children reach across.
   double left_end(std::size_t k) const { return split(k) + double(largest_[2 * k + 1]); }
@@ -184,7 +185,7 @@ class Pkd final : public ByRay<Pkd> {
 
 }  // namespace
 
-Result<StructurePointer> build_pkd(const SphereSet& spheres, int) {
+Result<StructurePointer> build_pkd(const SphereSet& spheres, const StructureParameters&, int) {
   return build_or_error(spheres, "pkd", [&]() -> StructurePointer { return std::make_unique<Pkd>(spheres); });
 }
 

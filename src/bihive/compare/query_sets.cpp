@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bihive/base/near_name.h"
 #include "bihive/math/rng.h"
 #include "bihive/render/shading.h"
 #include "bihive/render/surface.h"
+#include "bihive/scene/framing.h"
 
 namespace bihive::workbench {
 namespace {
@@ -35,7 +37,7 @@ Vec3d any_direction(SplitMix64& random) {
 }
 
 RayBatch primary_rays(const Scene& scene, std::int64_t count) {
-  const auto blocks = static_cast<int>(std::max(1L, std::lround(std::sqrt(static_cast<double>(count)) / kBlock)));
+  const int blocks = side_of_primary_px(count) / kBlock;
   const PixelRays pixels(local_camera(scene), blocks * kBlock, blocks * kBlock);
   RayBatch rays;
   for (int block = 0; block < blocks * blocks; ++block)
@@ -128,11 +130,31 @@ const QueryKindRow& row_of(QueryKind kind) {
 
 Result<QueryKind> query_kind_named(const std::string& name) {
   std::string all;
+  std::vector<std::string> names;
   for (const QueryKindRow& row : kQueryKinds) {
     if (name == row.name) return row.kind;
+    names.emplace_back(row.name);
     all += (all.empty() ? "" : ", ") + std::string(row.name);
   }
-  return Error{"there are no rays \"" + name + "\"; there are " + all, "", 0, 0, ""};
+  const std::string near = near_name(name, names);
+  return Error{"there are no rays \"" + name + "\"; there are " + all, "", 0, 0,
+               near.empty() ? "" : "did you mean " + near + "?"};
+}
+
+void complete_for_queries(Scene& scene, bool has_camera, bool has_lights) {
+  if (!has_camera) {
+    constexpr int kSide = 256;  // of any square picture
+    scene.camera = frame_spheres(scene.spheres, ViewFrom::front, scene.camera.fov_deg, kSide, kSide);
+  }
+  if (!has_lights || scene.lights.empty()) scene.lights = {light_behind(scene.camera)};
+}
+
+int side_of_primary_px(std::int64_t count) {
+  return kBlock * static_cast<int>(std::max(1L, std::lround(std::sqrt(static_cast<double>(count)) / kBlock)));
+}
+
+Ray primary_ray(const Scene& scene, int side_px, int x, int y) {
+  return PixelRays(local_camera(scene), side_px, side_px).at(x + 0.5, y + 0.5);
 }
 
 std::vector<QuerySet> make_query_sets(const Scene& scene, const std::vector<QueryKind>& kinds, std::int64_t count,
@@ -175,17 +197,22 @@ std::vector<QuerySet> make_query_sets(const Scene& scene, const std::vector<Quer
 QuerySet sample_of(const QuerySet& set, std::int64_t count) {
   const std::int64_t size = set.size();
   if (count >= size) return set;
-  QuerySet sample;
-  sample.kind = set.kind;
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t i = 0; i < count; ++i) numbers.push_back(position_in_sample(i, count, size));
+  return subset_of(set, numbers);
+}
+
+QuerySet subset_of(const QuerySet& set, const std::vector<std::int64_t>& numbers) {
+  QuerySet subset;
+  subset.kind = set.kind;
   const RaySpan rays = set.rays.span();
-  for (std::int64_t i = 0; i < count; ++i) {
-    const std::int64_t k = position_in_sample(i, count, size);
+  for (const std::int64_t k : numbers) {
     if (set.kind != QueryKind::points)
-      sample.rays.push_back(rays.at(k));
+      subset.rays.push_back(rays.at(k));
     else
-      sample.points.insert(sample.points.end(), set.points.begin() + 3 * k, set.points.begin() + 3 * k + 3);
+      subset.points.insert(subset.points.end(), set.points.begin() + 3 * k, set.points.begin() + 3 * k + 3);
   }
-  return sample;
+  return subset;
 }
 
 }  // namespace bihive::workbench

@@ -46,6 +46,15 @@ struct QuerySet {
   }
 };
 
+/// Gives a scene without a camera one in front of all spheres, and one without lights a light behind the camera: what
+/// make_query_sets() needs. The camera that `has_camera` speaks of passes check_camera().
+void complete_for_queries(Scene& scene, bool has_camera, bool has_lights);
+
+/// Pixels along each side of the square picture whose rays are the primary ones.
+int side_of_primary_px(std::int64_t count);
+/// Its ray through the centre of a pixel, (0, 0) at the top left. The scene has a camera that passes check_camera().
+Ray primary_ray(const Scene& scene, int side_px, int x, int y);
+
 /// One set for each kind. `count`: of primary, random and points; primary rays are rounded to whole blocks. Those that
 /// start at hits are as many as there are such hits: maybe none. The scene has a camera that passes check_camera(),
 /// and at least one sphere; clips, sticks and plane do not count. Without lights shadow rays go to the eye. `spheres`
@@ -59,5 +68,7 @@ inline std::int64_t position_in_sample(std::int64_t i, std::int64_t count, std::
 }
 /// `count` of its queries, evenly spaced; all of them if it has no more.
 QuerySet sample_of(const QuerySet& set, std::int64_t count);
+/// The queries of these numbers, in this order.
+QuerySet subset_of(const QuerySet& set, const std::vector<std::int64_t>& numbers);
 
 }  // namespace bihive::workbench

@@ -18,15 +18,16 @@ template <class Counter>
 struct Observer {
   Counter& counter;
 
-  void node_visit() { counter.node(); }
-  void leaf_visit() { counter.node(); }
+  void node_visit() { counter.node(false); }
+  void leaf_visit() { counter.node(true); }
   void empty_gap() {}
   void sphere_test() {}  // test() counts it
 };
 
 class ReferenceBih final : public ByRay<ReferenceBih> {
  public:
-  explicit ReferenceBih(const SphereSet& spheres) : ByRay(spheres), tree_(build_reference_tree(spheres, {})) {}
+  ReferenceBih(const SphereSet& spheres, const BuildParameters& parameters)
+      : ByRay(spheres), tree_(build_reference_tree(spheres, parameters)) {}
 
   StructureFacts facts() const override {
     const TreeStatistics statistics = tree_statistics(tree_);
@@ -92,7 +93,7 @@ class ReferenceBih final : public ByRay<ReferenceBih> {
       waiting.pop_back();
       if (at.least > nearest.limit()) continue;
       const Node& node = tree_.nodes[static_cast<std::size_t>(at.node)];
-      counter.node();
+      counter.node(node.is_leaf());
       if (node.is_leaf()) {
         for (std::int64_t i = node.first_sphere(); i < node.first_sphere() + node.sphere_count; ++i)
           test(point, tree_.sphere_ids[static_cast<std::size_t>(i)], nearest, counter);
@@ -120,8 +121,12 @@ class ReferenceBih final : public ByRay<ReferenceBih> {
 
 }  // namespace
 
-Result<StructurePointer> build_bih(const SphereSet& spheres, int) {
-  return build_or_error(spheres, "bih", [&]() -> StructurePointer { return std::make_unique<ReferenceBih>(spheres); });
+Result<StructurePointer> build_bih(const SphereSet& spheres, const StructureParameters& parameters, int) {
+  BuildParameters chosen;
+  if (parameters.max_prims > 0) chosen.max_prims = parameters.max_prims;
+  if (parameters.max_depth > 0) chosen.max_depth = parameters.max_depth;
+  return build_or_error(spheres, "bih",
+                        [&]() -> StructurePointer { return std::make_unique<ReferenceBih>(spheres, chosen); });
 }
 
 }  // namespace bihive::workbench

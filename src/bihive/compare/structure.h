@@ -1,6 +1,7 @@
 // A structure over a set of spheres: it answers rays and points with the bits of brute force, and counts its steps.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -20,12 +21,23 @@ namespace bihive::workbench {
 /// Steps of one query.
 struct Work {
   std::int64_t nodes = 0;         ///< nodes entered, leaves included; of a grid: cells
+  std::int64_t leaves = 0;        ///< leaves entered; of a grid: cells with spheres
   std::int64_t box_tests = 0;     ///< boxes compared with the ray or point; planes alone do not count
   std::int64_t sphere_tests = 0;  ///< a sphere in several leaves may be tested several times
 
   /// The surface area heuristic with one unit for a node and one for a sphere.
   double cost() const { return static_cast<double>(nodes + sphere_tests); }
 };
+
+/// One node on a ray's way.
+struct PathStep {
+  bool is_leaf = false;
+  std::int64_t box_tests = 0;            ///< before it was entered
+  std::vector<std::int64_t> sphere_ids;  ///< tested in it
+  Hit best;                              ///< after it
+};
+/// The nodes of a ray in the order of its steps. The first step of a structure without nodes has all its spheres.
+using RayPath = std::vector<PathStep>;
 
 /// Properties of a built structure, independent of queries.
 struct StructureFacts {
@@ -63,6 +75,8 @@ class Structure {
   /// Steps of one ray or point. The wide tree's are those of a scalar traversal: its vectors take rays together.
   virtual Work work_of_ray(const Ray& ray, bool any_hit) const = 0;
   virtual Work work_of_point(Vec3d point) const = 0;
+  /// The steps that work_of_ray() counts, one by one.
+  virtual RayPath path_of_ray(const Ray& ray, bool any_hit) const = 0;
 
   /// How many rays to pass in a call, so that calls of slow structures end soon.
   virtual std::int64_t rays_per_call() const { return 1024; }
@@ -70,12 +84,35 @@ class Structure {
 
 using StructurePointer = std::unique_ptr<const Structure>;
 
+/// Parameters of builders; 0: the structure's own choice.
+struct StructureParameters {
+  std::int64_t max_prims = 0;   ///< a range of at most this many spheres becomes a leaf
+  std::int64_t max_depth = 0;   ///< levels, the root's and the leaves' included
+  std::int64_t candidates = 0;  ///< choices compared per decision: planes along an axis, or neighbours on each side
+
+  bool operator==(const StructureParameters&) const = default;
+};
+
+struct ParameterRow {
+  const char* name;
+  std::int64_t StructureParameters::*value;
+  std::int64_t most;  ///< the least is 1
+  const char* meaning;
+};
+constexpr std::array<ParameterRow, 3> kStructureParameters{
+    {{"max-prims", &StructureParameters::max_prims, 1 << 20, "spheres of a leaf"},
+     {"max-depth", &StructureParameters::max_depth, 1000, "levels of a tree"},
+     {"candidates", &StructureParameters::candidates, 4096, "planes or neighbours compared for a decision"}}};
+/// Bits of StructureRow::takes, in the order of the rows.
+constexpr unsigned kTakesMaxPrims = 1, kTakesMaxDepth = 2, kTakesCandidates = 4;
+
 /// One structure that users can name.
 struct StructureRow {
   const char* name;
   const char* title;  ///< a phrase for tables
+  unsigned takes;     ///< the parameters that its builder knows; it ignores the others
   /// `threads`: for builders that use them; 0: all. Errors: more spheres than it numbers, or not enough memory.
-  Result<StructurePointer> (*build)(const SphereSet& spheres, int threads);
+  Result<StructurePointer> (*build)(const SphereSet& spheres, const StructureParameters& parameters, int threads);
 };
 
 /// All of them, in the order of reports.

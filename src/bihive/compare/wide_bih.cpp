@@ -4,6 +4,7 @@
 
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
+#include "bihive/compare/nearest_first.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/wide_builder.h"
 #include "bihive/wide/wide_statistics.h"
@@ -49,40 +50,30 @@ class WideWork final : public ByRay<WideWork> {
     struct Child {
       const WideNode* node;  // null: a leaf
       std::int64_t begin, count;
-      double entry;
     };
     if (tree_.node_count == 0) return;
     counter.box_test();
-    const double whole = entry(tree_.aabb);
-    if (whole == kNever) return;
-    std::vector<Child> waiting{{tree_.nodes, 0, 0, whole}};
-    while (!waiting.empty()) {
-      const Child at = waiting.back();
-      waiting.pop_back();
-      if (at.entry > limit()) continue;
-      counter.node();
+    const auto open = [&](const Child& at, const auto& wait) {
+      counter.node(at.node == nullptr);
       if (at.node == nullptr) {
         for (std::int64_t slot = at.begin; slot < at.begin + at.count; ++slot)
-          if (visit(tree_.spheres.id(slot))) return;
-        continue;
+          if (visit(tree_.spheres.id(slot))) return true;
+        return false;
       }
-      // All children that are met wait, the first one on top.
-      const std::size_t first = waiting.size();
       for (int slot = 0; slot < at.node->child_count; ++slot) {
         Aabb box;
         for (int axis = 0; axis < 3; ++axis)
           box.lo[axis] = at.node->lo[axis][slot], box.hi[axis] = at.node->hi[axis][slot];
         counter.box_test();
-        const double where = entry(box);
-        if (where == kNever) continue;
         if (at.node->is_leaf(slot))
-          waiting.push_back({nullptr, at.node->sphere_begin(slot), at.node->sphere_count(slot), where});
+          wait(Child{nullptr, at.node->sphere_begin(slot), at.node->sphere_count(slot)}, entry(box));
         else
-          waiting.push_back({tree_.nodes + at.node->child_node(slot), 0, 0, where});
+          wait(Child{tree_.nodes + at.node->child_node(slot), 0, 0}, entry(box));
       }
-      std::stable_sort(waiting.begin() + static_cast<std::ptrdiff_t>(first), waiting.end(),
-                       [](const Child& a, const Child& b) { return a.entry > b.entry; });
-    }
+      return false;
+    };
+    constexpr std::size_t kMostWaiting = (kWidth - 1) * (kMostLevels + 1) + 1;
+    nearest_first<kMostWaiting>(Child{tree_.nodes, 0, 0}, entry(tree_.aabb), open, limit);
   }
 };
 
@@ -124,6 +115,7 @@ class WideBih final : public Structure {
 
   Work work_of_ray(const Ray& ray, bool any_hit) const override { return work_.work_of_ray(ray, any_hit); }
   Work work_of_point(Vec3d point) const override { return work_.work_of_point(point); }
+  RayPath path_of_ray(const Ray& ray, bool any_hit) const override { return work_.path_of_ray(ray, any_hit); }
   // The more the better: it sorts scattered rays.
   std::int64_t rays_per_call() const override { return 1 << 18; }
 
@@ -134,9 +126,10 @@ class WideBih final : public Structure {
 
 }  // namespace
 
-Result<StructurePointer> build_wide(const SphereSet& spheres, int threads) {
+Result<StructurePointer> build_wide(const SphereSet& spheres, const StructureParameters& parameters, int threads) {
   WideBuilder builder;
-  Result<std::shared_ptr<const WideTree>> tree = builder.build(spheres, {}, threads);
+  Result<std::shared_ptr<const WideTree>> tree =
+      builder.build(spheres, {parameters.max_prims, parameters.max_depth}, threads);
   if (!tree) return tree.error();
   return StructurePointer(std::make_unique<WideBih>(spheres, std::move(*tree)));
 }

@@ -1,0 +1,208 @@
+#include "bihive/compare/tune.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bihive/base/parallel.h"
+#include "bihive/base/timer.h"
+#include "bihive/compare/run_queries.h"
+#include "bihive/compare/sweep.h"
+#include "bihive/math/quartiles.h"
+
+namespace bihive::workbench {
+namespace {
+
+constexpr std::int64_t kMaxPrims[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+constexpr std::int64_t kCutLevels[] = {1, 2};  // fewer than the best trees have
+constexpr std::size_t kTimedAtMost = 8;
+constexpr double kCalibrationMs = 50;
+constexpr double kRoundMs = 10;
+constexpr std::int64_t kFirstRounds = 3;  // of all candidates; those that remain get as many again, and so on
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct Built {
+  TuneCandidate candidate;
+  StructurePointer structure;
+  std::vector<std::vector<Work>> works;  // of each kind
+  std::vector<double> times;             // of rounds, in nanoseconds of a query
+};
+
+class Tuner {
+ public:
+  Tuner(const Scene& scene, const TuneOptions& options) : scene_(scene), options_(options) {}
+
+  Result<Tuning> tune() {
+    const Result<StructureRow> row = structure_named(options_.structure);
+    if (!row) return row.error();
+    if ((row->takes & kTakesMaxPrims) == 0)
+      return Error{options_.structure + " has no parameters to tune", "", 0, 0, ""};
+    tuning_.row = *row;
+    tuning_.spheres = scene_.spheres.size();
+    tuning_.threads = options_.threads > 0 ? options_.threads : hardware_threads();
+    tuning_.kinds = options_.kinds;
+    if (tuning_.kinds.empty())
+      for (const QueryKindRow& kind : kQueryKinds) tuning_.kinds.push_back(kind.kind);
+    Result<std::vector<AnsweredSet>> sets = answered_sets(scene_, tuning_.kinds, options_.count, tuning_.threads);
+    if (!sets) return sets.error();
+    sets_ = std::move(*sets);
+    for (const AnsweredSet& one : sets_) tuning_.queries.push_back(one.set.size());
+
+    // Count the work of every leaf size.
+    if (const Status built = add({}); !built) return built.error();
+    for (const std::int64_t max_prims : kMaxPrims)
+      if (const Status built = add({max_prims, 0, 0}); !built) return built.error();
+    calibrate();
+    rank_by_counts();
+    // Cut levels off the trees that promise most.
+    if ((row->takes & kTakesMaxDepth) != 0) {
+      const std::int64_t depth = built_.front().candidate.depth, max_prims = max_prims_of(built_.front());
+      for (const std::int64_t fewer : kCutLevels)
+        if (depth - fewer >= 1)
+          if (const Status built = add({max_prims, depth - fewer, 0}); !built) return built.error();
+      rank_by_counts();
+    }
+    halve_by_the_clock();
+    return std::move(tuning_);
+  }
+
+ private:
+  const Scene& scene_;
+  const TuneOptions& options_;
+  Tuning tuning_;
+  std::vector<AnsweredSet> sets_;
+  std::vector<Built> built_;
+
+  static std::int64_t max_prims_of(const Built& one) { return one.candidate.parameters.max_prims; }
+
+  Status add(const StructureParameters& parameters) {
+    Result<StructurePointer> structure = tuning_.row.build(scene_.spheres, parameters, tuning_.threads);
+    if (!structure) return structure.error();
+    Built one;
+    one.structure = std::move(*structure);
+    const StructureFacts facts = one.structure->facts();
+    one.candidate.parameters = parameters;
+    one.candidate.bytes = facts.bytes, one.candidate.depth = facts.depth;
+    one.candidate.ns = one.candidate.counted_ns = kNone;
+    double kinds = 0;
+    for (const AnsweredSet& set : sets_) {
+      one.works.push_back(count_all(*one.structure, set.set, tuning_.threads));
+      if (set.set.size() == 0) continue;
+      double work = 0;
+      for (const Work& of_query : one.works.back()) work += of_query.cost();
+      one.candidate.work += work / static_cast<double>(set.set.size());
+      ++kinds;
+    }
+    one.candidate.work /= kinds;
+    // Leave out a choice that gives the tree of another one.
+    const auto is_same = [&](const Built& other) {
+      return one.candidate.bytes == other.candidate.bytes && one.candidate.depth == other.candidate.depth &&
+             one.candidate.work == other.candidate.work;
+    };
+    if (std::any_of(built_.begin(), built_.end(), is_same)) return Done{};
+    built_.push_back(std::move(one));
+    return Done{};
+  }
+
+  // Times groups of queries on three trees whose leaves differ much, so that the steps have different proportions.
+  void calibrate() {
+    const Timer timer;
+    std::vector<TimedWork> groups;
+    constexpr std::int64_t kGroups = 3;
+    const std::size_t last = built_.size() - 1;
+    std::vector<std::size_t> chosen{0};
+    if (last > 0) chosen.push_back(1);
+    if (last > 1) chosen.push_back(last);
+    const double each_ms = kCalibrationMs / double(chosen.size() * sets_.size() * kGroups);
+    for (const std::size_t b : chosen)
+      for (std::size_t k = 0; k < sets_.size(); ++k)
+        for (const std::vector<std::int64_t>& group : groups_by_work(built_[b].works[k], kGroups)) {
+          const QuerySet part = subset_of(sets_[k].set, group);
+          groups.push_back(mean_work(built_[b].works[k], group));
+          const double ms = time_of_answers(*built_[b].structure, part, 1, {each_ms / 2, 0, 1});
+          groups.back().ns = ms * 1e6 / static_cast<double>(part.size());
+        }
+    tuning_.costs = fit_costs(groups);
+    tuning_.calibration_ms = timer.elapsed_ms();
+  }
+
+  // By the time that counts and costs predict; by the counts alone where there is no fit.
+  void rank_by_counts() {
+    for (Built& one : built_) {
+      double ns = 0, kinds = 0;
+      for (const std::vector<Work>& works : one.works) {
+        if (works.empty()) continue;
+        std::vector<std::int64_t> all(works.size());
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i);
+        ns += tuning_.costs.ns_of(mean_work(works, all));
+        ++kinds;
+      }
+      one.candidate.counted_ns = tuning_.costs.found() ? ns / kinds : kNone;
+    }
+    const auto rank = [&](const Built& one) {
+      return tuning_.costs.found() ? one.candidate.counted_ns : one.candidate.work;
+    };
+    std::stable_sort(built_.begin(), built_.end(), [&](const Built& a, const Built& b) { return rank(a) < rank(b); });
+  }
+
+  // A round of one candidate: the mean time of a query over the kinds.
+  double round_of(const Built& one) const {
+    double ns = 0, kinds = 0;
+    for (const AnsweredSet& set : sets_) {
+      if (set.set.size() == 0) continue;
+      const double ms = time_of_answers(*one.structure, set.set, tuning_.threads,
+                                        {kRoundMs / static_cast<double>(sets_.size()), 0, 1});
+      ns += ms * 1e6 / static_cast<double>(set.set.size());
+      ++kinds;
+    }
+    return ns / kinds;
+  }
+
+  void halve_by_the_clock() {
+    // The structure's own choice is timed to the end, as what the others are compared with.
+    std::vector<Built*> racing;
+    Built* own = nullptr;
+    for (Built& one : built_) {
+      if (one.candidate.is_own())
+        own = &one;
+      else if (racing.size() < kTimedAtMost)
+        racing.push_back(&one);
+    }
+    const Timer timer;
+    const auto time_left = [&] { return timer.elapsed_ms() < options_.most_ms; };
+    std::int64_t rounds = kFirstRounds;
+    const double first = static_cast<double>(racing.size());
+    for (;; rounds *= 2) {
+      for (std::int64_t round = 0; round < rounds && (time_left() || own->times.empty()); ++round) {
+        own->times.push_back(round_of(*own));
+        for (Built* one : racing) one->times.push_back(round_of(*one));
+      }
+      std::stable_sort(racing.begin(), racing.end(),
+                       [](const Built* a, const Built* b) { return median(a->times) < median(b->times); });
+      if (options_.progress && !racing.empty()) options_.progress(1 - (static_cast<double>(racing.size()) - 1) / first);
+      if (racing.size() <= 1 || !time_left()) break;
+      racing.resize((racing.size() + 1) / 2);
+    }
+    for (Built& one : built_) {
+      one.candidate.rounds = std::ssize(one.times);
+      if (!one.times.empty()) one.candidate.ns = median(one.times);
+      tuning_.candidates.push_back(one.candidate);
+    }
+    std::stable_sort(tuning_.candidates.begin(), tuning_.candidates.end(),
+                     [](const TuneCandidate& a, const TuneCandidate& b) {
+                       if (a.rounds != b.rounds) return a.rounds > b.rounds;
+                       return a.rounds > 0 ? a.ns < b.ns : a.work < b.work;
+                     });
+    tuning_.own = own->candidate;
+    const TuneCandidate& fastest = (racing.empty() ? own : racing.front())->candidate;
+    tuning_.best = fastest.ns * (1 + kAsGood) < own->candidate.ns ? fastest : own->candidate;
+  }
+};
+
+}  // namespace
+
+Result<Tuning> tune_structure(const Scene& scene, const TuneOptions& options) {
+  return Tuner(scene, options).tune();
+}
+
+}  // namespace bihive::workbench
