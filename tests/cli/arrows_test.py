@@ -53,6 +53,11 @@ class Arrows(ProgramTest):
         self.succeed("render", "one.csv", "-o", "a.exr", *SIZE, "--arrows", "vx,0*vx,0*vx", "--layers", "depth,id")
         self.succeed("render", "one.csv", "-o", "a.png", *SIZE, "--arrows", "vx,0*vx,0*vx", "--floor", "grey")
 
+    def test_a_legend_of_arrows_alone(self):
+        arrows = ["--arrows", "vx,vy,vz", "--arrow-colour", "vy:viridis", "--colour", "grey"]
+        self.assertNotEqual(self.picture(*arrows, "--legend"), self.picture(*arrows))
+        self.assertIn("no meaning", self.refused("--arrows", "vx,vy,vz", "--arrow-colour", "red", "--colour", "grey", "--legend"))
+
     def test_what_is_refused(self):
         self.assertIn("expected three attributes", self.refused("--arrows", "vx,vy"))
         self.assertIn('there is no attribute "vw"', self.refused("--arrows", "vx,vy,vw"))

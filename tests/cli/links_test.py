@@ -43,6 +43,10 @@ class Links(ProgramTest):
         self.write("two.csv", "first,second,force\n0,1,1\n1,2,3\n")
         self.assertEqual(self.picture("--link-radius", "force:0.1"), self.picture("--link-radius", "force:0.1", links="two.csv"))
 
+    def test_a_legend_of_links_alone(self):
+        links = ["--link-colour", "force:magma", "--colour", "grey"]
+        self.assertNotEqual(self.picture(*links, "--legend"), self.picture(*links))
+
     def test_columns_may_stand_in_any_order(self):
         self.write("other.csv", "# made by hand\nforce,second,first\n1,1,0\n3,2,1\n,3,2\n")
         self.assertEqual(self.picture(links="other.csv"), self.picture())

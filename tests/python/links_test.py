@@ -19,7 +19,7 @@ class Links(ProgramTest):
         self.write("l.csv", "first,second,force\n0,1,1\n1,2,3\n0,3,0.5\n")
 
     def drawn(self, links, spheres=None, **options):
-        return bh.render(self.spheres if spheres is None else spheres, links=links, radius_scale=0.4, **options, **OPTIONS).hash
+        return bh.render(self.spheres if spheres is None else spheres, links=links, looks=bh.Look(radius_scale=0.4), **options, **OPTIONS).hash
 
     def test_of_arrays_are_those_of_a_file(self):
         file, columns = self.path("l.csv"), {"first": PAIRS[:, 0], "second": PAIRS[:, 1], "force": FORCE}

@@ -16,7 +16,7 @@ namespace bihive {
 namespace {
 
 constexpr double kRadiusOfLinks = 0.25;  // of the smaller sphere's
-constexpr std::int64_t kMostImages = std::int64_t{1} << 40;
+constexpr std::int64_t kMostShift = std::int64_t{1} << 40;
 constexpr const char* kImages[] = {"image_a", "image_b", "image_c"};
 
 // ---- Reading ----
@@ -168,7 +168,7 @@ Result<LinkTable> links_from_csv(std::string_view text, const std::string& file)
     std::array<std::int64_t, 2> pair{};
     for (std::size_t k = 0; k < 2; ++k) {
       const Result<std::int64_t> sphere =
-          whole_field(scanner, names[columns->pair[k]], fields[columns->pair[k]], 0, kMostImages);
+          whole_field(scanner, names[columns->pair[k]], fields[columns->pair[k]], 0, kMostShift);
       if (!sphere) return sphere.error();
       pair[k] = *sphere;
     }
@@ -177,7 +177,7 @@ Result<LinkTable> links_from_csv(std::string_view text, const std::string& file)
       std::array<std::int64_t, 3> image{};
       for (std::size_t k = 0; k < 3; ++k) {
         const Result<std::int64_t> count =
-            whole_field(scanner, kImages[k], fields[(*columns->images)[k]], -kMostImages, kMostImages);
+            whole_field(scanner, kImages[k], fields[(*columns->images)[k]], -kMostShift, kMostShift);
         if (!count) return count.error();
         image[k] = *count;
       }
