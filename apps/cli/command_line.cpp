@@ -419,7 +419,7 @@ void add_measure(CLI::App& app, MeasureCommandOptions& options, Request& request
     tables.push_back(command.add_option(name, target, help)->type_name("FILE"));
   };
   add_table("--per-sphere", options.per_sphere, "CSV: exposed area, and volume, of each sphere");
-  add_table("--cavities", options.cavities, "CSV: volume, area and spheres of each cavity");
+  add_table("--cavities", options.cavities, "CSV: volume, area, spheres and residues of each cavity");
   add_table("--contacts", options.contacts, "CSV: each two spheres that share a part of their plane, and its area");
   add_table(
       "--buried", options.buried,

@@ -1,5 +1,6 @@
 """Pictures of cavities: --show-cavities of render, film and scene files, and what it is refused with."""
 
+import csv
 import itertools
 import json
 
@@ -48,8 +49,8 @@ class Cavities(ProgramTest):
     def test_the_molecule(self):
         """As many spheres line cavities as measure says: the lining of all of them."""
         self.succeed("measure", "demo", "--probe", "1.4", "--cavities", "c.csv")
-        rows = self.read("c.csv").decode().splitlines()[1:]
-        lining = {int(sphere) for row in rows for sphere in row.split(",")[-1].split()}
+        with open(self.path("c.csv"), encoding="utf-8") as file:
+            lining = {int(sphere) for row in csv.DictReader(file) for sphere in row["spheres"].split()}
         self.assertGreater(len(lining), 10)
         answer = self.succeed_json("render", "demo", "-o", "a.png", *VIEW, "--show-cavities", "1.4")
         self.assertEqual(answer["settings"]["spheres"], len(lining))

@@ -3,6 +3,7 @@
 import csv
 import math
 import os
+import re
 
 from program import ProgramTest, main
 
@@ -94,6 +95,21 @@ class Measure(ProgramTest):
         self.assertEqual(rows[0]["spheres"], "0 1 2 3 4 5 6 7")
         self.assertAlmostEqual(float(rows[0]["volume"]), found["cavity_volume"], places=12)
         self.assertIn("2 connected parts, 1 cavity of volume", self.succeed("measure", "cube.csv"))
+
+    def test_residues_that_line_cavities(self):
+        self.succeed("measure", "demo", "--select", "not water", "--probe", "1.4", "--cavities", "c.csv")
+        rows = self.rows("c.csv")
+        self.assertTrue(rows)
+        self.assertEqual([float(row["volume"]) for row in rows], sorted((float(row["volume"]) for row in rows), reverse=True))
+        self.assertNotIn("HOH", " ".join(row["residues"] for row in rows))
+        # Residues of chains, as selections name them, have the spheres of the row.
+        row = next(row for row in rows if all(":" in residue for residue in row["residues"].split()))
+        residues = row["residues"].split()
+        self.assertEqual(len(residues), len(set(residues)))
+        words = [re.fullmatch(r"(\w):([A-Z]{3})(\d+)", residue).groups() for residue in residues]
+        selection = " or ".join(f"(chain {chain} and resname {name} and resid {number})" for chain, name, number in words)
+        ids = set(self.succeed_json("select", "demo", selection)["ids"])
+        self.assertLessEqual(set(map(int, row["spheres"].split())), ids)
 
     def test_volume_per_sphere_and_contacts(self):
         self.succeed("measure", "a.csv", "--per-sphere", "spheres.csv", "--contacts", "contacts.csv")

@@ -242,7 +242,7 @@ void run_measure(const MeasureCommandOptions& options) {
     tables.push_back(table());
   };
   write(options.per_sphere, [&] { return table_of_spheres(spheres, options.probe, measures, measure.mask); });
-  write(options.cavities, [&] { return table_of_cavities(measures.cavities); });
+  write(options.cavities, [&] { return table_of_cavities(spheres, measures.cavities); });
   write(options.contacts, [&] { return table_of_contacts(measures.contacts, report.periodic); });
   write(options.buried, [&] { return table_of_buried(report.groups, *report.buried); });
   std::vector<FileToWrite> files;

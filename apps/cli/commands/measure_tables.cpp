@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "bihive/io/write_spheres.h"
 
 namespace bihive::cli {
@@ -16,12 +19,31 @@ std::string table_of_spheres(const SphereSet& spheres, double probe, const Union
   return csv;
 }
 
-std::string table_of_cavities(const std::vector<Cavity>& cavities) {
-  std::string csv = "volume,area,spheres\n";
+std::string table_of_cavities(const SphereSet& spheres, const std::vector<Cavity>& cavities) {
+  const SphereAttributes& attributes = spheres.attributes();
+  const NamedTexts* const names = attributes.find_texts("resname");
+  const NamedTexts* const chains = attributes.find_texts("chain");
+  const NamedTexts* const insertions = attributes.find_texts("insertion");
+  const NamedNumbers* const numbers = attributes.find_numbers("resid");
+  const bool has_residues = names != nullptr && numbers != nullptr;
+  std::string csv = has_residues ? "volume,area,spheres,residues\n" : "volume,area,spheres\n";
   for (const Cavity& cavity : cavities) {
     csv += fmt::format("{},{},", cavity.volume, cavity.area);
     for (std::size_t i = 0; i < cavity.spheres.size(); ++i)
       csv += fmt::format("{}{}", i > 0 ? " " : "", cavity.spheres[i]);
+    if (has_residues) {
+      // Each residue once, in the order of its first sphere.
+      std::vector<std::string> residues;
+      for (const std::int64_t sphere : cavity.spheres) {
+        const auto id = static_cast<std::size_t>(sphere);
+        const std::string chain = chains != nullptr && !chains->of(id).empty() ? chains->of(id) + ":" : "";
+        std::string residue = fmt::format("{}{}{}{}", chain, names->of(id), numbers->values[id],
+                                          insertions != nullptr ? insertions->of(id) : "");
+        if (std::find(residues.begin(), residues.end(), residue) == residues.end())
+          residues.push_back(std::move(residue));
+      }
+      csv += "," + csv_field(fmt::format("{}", fmt::join(residues, " ")));
+    }
     csv += "\n";
   }
   return csv;

@@ -14,7 +14,8 @@ namespace bihive::cli {
 /// A row for each sphere that the mask keeps; null: each sphere of the set.
 std::string table_of_spheres(const SphereSet& spheres, double probe, const UnionMeasures& measures,
                              const std::uint8_t* mask);
-std::string table_of_cavities(const std::vector<Cavity>& cavities);
+/// With the residues that line each, as "A:LEU23", if the set knows names and numbers of residues.
+std::string table_of_cavities(const SphereSet& spheres, const std::vector<Cavity>& cavities);
 std::string table_of_contacts(const std::vector<Contact>& contacts, bool periodic);
 /// A matrix; on the diagonal the area of each group alone.
 std::string table_of_buried(const std::vector<std::string>& groups, const BuriedAreas& areas);

@@ -35,6 +35,10 @@ class CapArrays {
   void erase(int index);
   int size() const { return size_; }
   const double* operator[](std::size_t k) const { return numbers_[k].data(); }  ///< x, y, z, c, s
+  /// Room for `count` caps and the padding, to be written.
+  double* write(std::size_t k, std::size_t count);
+  /// The caps written: pads them.
+  void end_at(int size);
 
  private:
   int size_ = 0;
@@ -46,13 +50,18 @@ class CapArrays {
 int first_unclear(const CapArrays& caps, int from, const CapNumbers& cap, double doubt);
 
 /// Of the caps whose circles surely cross that of `cap`, the one that covers the longest arc of it; of equal ones the
-/// first. The number of caps if there is none.
-int widest_crossing(const CapArrays& caps, const CapNumbers& cap, double doubt);
+/// first. The number of caps if there is none. `crossing` gets all of them: axes and c.
+int widest_crossing(const CapArrays& caps, const CapNumbers& cap, double doubt, CapArrays& crossing);
 
-/// Whether some cap surely holds start and middle, and some cap middle and end: each above its c by more than `doubt`,
-/// of the caps whose circles surely cross that of `cap` (as in widest_crossing()).
-bool hold_halves(const CapArrays& caps, const CapNumbers& cap, double crossing_doubt, Vec3d start, Vec3d middle,
-                 Vec3d end, double doubt);
+/// An arc of the circle of `cap` from `start` counterclockwise to `end`, with its middle: from the circle's centre.
+struct ArcPoints {
+  Vec3d start, middle, end;
+};
+
+/// Whether caps surely cover the arc: those in `crossing`, none of which leaves a shorter arc of the circle than this
+/// one. So one that holds both ends of a section of it covers the section: what it leaves does not fit between them.
+/// Sections that no cap covers are halved a few times. A point is held that is above c by more than `doubt`.
+bool surely_cover(const CapArrays& crossing, const CapNumbers& cap, const ArcPoints& arc, double doubt);
 
 /// The first cap from `from` on in which a or b lies, or may lie: x.axis - c is at least -doubt.
 int first_holding(const CapArrays& caps, int from, Vec3d a, Vec3d b, double doubt);

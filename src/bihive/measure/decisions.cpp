@@ -128,26 +128,15 @@ Vec3d rounded(const Vector& v) {
 
 }  // namespace
 
-TwoBalls relation(const Balls& balls, Id i, Id j) {
-  const double r = balls.radius[i], s = balls.radius[j];
-  const Vec3d a = balls.between(i, j);
-  // A relative error of 2^-50 at most in each of the three.
-  const double distance2 = bihive::dot(a, a), reach2 = (r + s) * (r + s), inner2 = (r - s) * (r - s);
-  constexpr double kDoubt = 0x1p-48;
-  const TwoBalls nested = balls.shrinks_more(i, j) ? TwoBalls::first_in_second : TwoBalls::second_in_first;
-  if (distance2 > reach2 * (1 + kDoubt)) return TwoBalls::apart;
-  if (distance2 < inner2 * (1 - kDoubt)) return nested;
-  const bool surely_within_reach = distance2 < reach2 * (1 - kDoubt);
-  if (surely_within_reach && distance2 > inner2 * (1 + kDoubt)) return TwoBalls::cross;
-  // Touching balls do not cross: those that shrink more are smaller.
+TwoBalls exact_relation(const Balls& balls, Id i, Id j) {
+  const Number r(balls.radius[i]), s(balls.radius[j]);
   const Vector exact = between(balls, i, j);
   const Number squared = dot(exact, exact);
-  if (!surely_within_reach) {
-    const Number sum = Number(r) + Number(s);
-    return (squared - sum * sum).sign() >= 0 ? TwoBalls::apart : TwoBalls::cross;
-  }
-  const Number difference = Number(r) - Number(s);
-  return (squared - difference * difference).sign() <= 0 ? nested : TwoBalls::cross;
+  // Touching balls do not cross: those that shrink more are smaller.
+  const Number sum = r + s, difference = r - s;
+  if ((squared - sum * sum).sign() >= 0) return TwoBalls::apart;
+  if ((squared - difference * difference).sign() > 0) return TwoBalls::cross;
+  return balls.shrinks_more(i, j) ? TwoBalls::first_in_second : TwoBalls::second_in_first;
 }
 
 bool circle_meets(const Balls& balls, Id i, Id j, Id k) {

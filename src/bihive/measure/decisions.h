@@ -18,7 +18,24 @@
 namespace bihive::measure {
 
 enum class TwoBalls { apart, cross, first_in_second, second_in_first };
-TwoBalls relation(const Balls& balls, std::int64_t i, std::int64_t j);
+TwoBalls exact_relation(const Balls& balls, std::int64_t i, std::int64_t j);
+
+/// The same, where the squared distance of the centres is known: dot() of Balls::between().
+inline TwoBalls relation(const Balls& balls, std::int64_t i, std::int64_t j, double distance2) {
+  const double r = balls.radius[i], s = balls.radius[j];
+  // A relative error of 2^-50 at most in each of the three.
+  const double reach2 = (r + s) * (r + s), inner2 = (r - s) * (r - s);
+  constexpr double kDoubt = 0x1p-48;
+  if (distance2 < reach2 * (1 - kDoubt) && distance2 > inner2 * (1 + kDoubt)) return TwoBalls::cross;
+  if (distance2 > reach2 * (1 + kDoubt)) return TwoBalls::apart;
+  if (distance2 < inner2 * (1 - kDoubt))
+    return balls.shrinks_more(i, j) ? TwoBalls::first_in_second : TwoBalls::second_in_first;
+  return exact_relation(balls, i, j);
+}
+inline TwoBalls relation(const Balls& balls, std::int64_t i, std::int64_t j) {
+  const Vec3d a = balls.between(i, j);
+  return relation(balls, i, j, dot(a, a));
+}
 
 /// i and j cross: whether their circle meets sphere k.
 bool circle_meets(const Balls& balls, std::int64_t i, std::int64_t j, std::int64_t k);

@@ -23,9 +23,8 @@ constexpr double kSharpInFilter = 0x1p-30, kSharpInResult = 0x1p-20;
 // Angles of corners that are nearer to each other are compared exactly.
 constexpr double kNear = 0x1p-26;
 
-// For is_surely_covered(): points of a greater error are in doubt; on circles of a radius of at least 1/32 the others
-// differ in their angle by much less than kMuch.
-constexpr double kSure = 0x1p-28, kMuch = 0x1p-20;
+// For is_surely_covered(): points of a greater error are in doubt.
+constexpr double kSure = 0x1p-28;
 
 // Of a corner, computed in binary64: 1 / sine + 1 / (sine root), times 2^-45.
 double corner_error(double sine2, double root_of_d) {
@@ -67,14 +66,15 @@ bool ExposedSphere::find_caps(const std::int64_t* neighbours, std::int64_t count
   for (std::int64_t n = 0; n < count; ++n) {
     const std::int64_t j = neighbours[n];
     if (j == i_) continue;
-    const TwoBalls related = relation(balls_, i_, j);
+    const Vec3d a = balls_.between(i_, j);
+    const double distance2 = dot(a, a);
+    const TwoBalls related = relation(balls_, i_, j, distance2);
     if (related == TwoBalls::first_in_second) {
       container_ = j;
       return false;
     }
     if (related != TwoBalls::cross) continue;
-    const Vec3d a = balls_.between(i_, j);
-    const double distance2 = dot(a, a), distance = std::sqrt(distance2), other = balls_.radius[j];
+    const double distance = std::sqrt(distance2), other = balls_.radius[j];
     Cap cap{{(1 / distance) * a, 0, 0}, j, false, false, false, false};
     cap.c = (distance2 + (radius - other) * (radius + other)) / (2 * distance * radius);
     const double sine2 = (1 - cap.c) * (1 + cap.c);
@@ -143,8 +143,8 @@ std::optional<ExposedSphere::Crossing> ExposedSphere::crossing_of(int p, int q) 
 }
 
 // A cap whose circle crosses that of cap p, and covers much of it; -1: none.
-int ExposedSphere::find_crossing(int p) const {
-  const int sure = widest_crossing(arrays_, caps_[p], kCrossingError);
+int ExposedSphere::find_crossing(int p) {
+  const int sure = widest_crossing(arrays_, caps_[p], kCrossingError, crossing_);
   if (sure < arrays_.size()) return sure;
   for (int q = 0; q < arrays_.size(); ++q)
     if (q != p && !caps_[q].redundant && crossing_of(std::min(p, q), std::max(p, q))) return q;
@@ -160,51 +160,20 @@ ExposedSphere::Points ExposedSphere::points_of(const Cap& p, const Cap& q, doubl
   return {middle, (root * inverse) * normal, corner_error(sine2, root)};
 }
 
-// Whether other caps cover all of the circle of cap p. Looks for it in binary64, and gives up where anything is in
-// doubt: then it is not sure, and exact decisions follow for each corner.
-bool ExposedSphere::is_surely_covered(int p, int first) const {
+// Whether other caps cover all of the circle of cap p, after find_crossing(p). Looks for it in binary64, and gives up
+// where anything is in doubt: then it is not sure, and exact decisions follow for each corner.
+bool ExposedSphere::is_surely_covered(int p, int widest) const {
   const Cap& own = caps_[p];
   if (own.accurate) return false;
-  // What one cap leaves is an arc, from `start` counterclockwise to `end`.
-  const CirclePair pair = CirclePair::of(own, caps_[first]);
+  const CirclePair pair = CirclePair::of(own, caps_[widest]);
   if (!(pair.d > kCrossingError)) return false;
-  Points points = points_of(own, caps_[first], pair.g, pair.d);
-  Vec3d start = points.middle + points.offset, end = points.middle - points.offset;
-  double doubt = points.error + 4 * kCapError;
+  const Points points = points_of(own, caps_[widest], pair.g, pair.d);
+  const double doubt = 4 * (points.error + 4 * kCapError);
   if (!(doubt < kSure)) return false;
-  // No cap that crosses leaves less of the circle. So one that holds an end and the middle of the arc covers all
-  // between them: otherwise it would leave less than half of the arc.
-  const Vec3d across_own = caps_[first].axis - pair.g * own.axis;
-  const Vec3d middle = own.c * own.axis - own.s * normalized(across_own);
-  if (hold_halves(arrays_, own, kCrossingError, start, middle, end, doubt)) return true;
-  for (int l = first_holding(arrays_, 0, start, end, doubt); l < arrays_.size();
-       l = first_holding(arrays_, l + 1, start, end, doubt)) {
-    if (l == p || l == first) continue;
-    const Cap& cap = caps_[l];
-    const double at_start = dot(start, cap.axis) - cap.c, at_end = dot(end, cap.axis) - cap.c;
-    if (cap.redundant || std::abs(at_start) <= doubt || std::abs(at_end) <= doubt) continue;
-    // Cap l shortens the arc at one end or both, or covers it.
-    const CirclePair with = CirclePair::of(own, cap);
-    points = points_of(own, cap, with.g, with.d);
-    if (!(points.error < kSure)) continue;
-    const Vec3d exit = points.middle + points.offset, entry = points.middle - points.offset;
-    if (at_start > 0 && at_end > 0) {
-      // Counterclockwise from the start, the end comes before the exit if all of the arc is covered.
-      const Vec3d from = start - own.c * own.axis;
-      const auto turn = [&](Vec3d x) {
-        const double along = dot(from, x - own.c * own.axis), up = dot(own.axis, cross(from, x));
-        const double part = along / (std::abs(along) + std::abs(up));
-        return up >= 0 ? 1 - part : 3 + part;
-      };
-      const double of_end = turn(end), of_exit = turn(exit);
-      if (of_end < of_exit - kMuch && of_end > kMuch && of_exit < 4 - kMuch) return true;
-      if (!(of_exit < of_end - kMuch)) continue;
-    }
-    if (at_start > 0) start = exit;
-    if (at_end > 0) end = entry;
-    doubt = std::max(doubt, points.error + 4 * kCapError);
-  }
-  return false;
+  // The arc that the widest cap leaves.
+  const Vec3d from_centre = points.middle - own.c * own.axis;
+  const Vec3d middle = -own.s * normalized(caps_[widest].axis - pair.g * own.axis);
+  return surely_cover(crossing_, own, {from_centre + points.offset, middle, from_centre - points.offset}, doubt);
 }
 
 // Whether a corner of the circles p and q lies in a third ball.

@@ -141,6 +141,7 @@ class ExposedSphere {
   std::vector<Cap> caps_, found_;
   std::vector<std::pair<double, int>> order_;  // of found_, by c
   CapArrays arrays_;                           // of caps_; redundant ones have no points
+  CapArrays crossing_;                         // those whose circles surely cross the circle at hand
   std::vector<int> uncovered_;                 // of caps_
   std::vector<Crossing> crossings_;            // for facets alone
   std::vector<Corner> corners_;
@@ -176,8 +177,8 @@ class ExposedSphere {
   bool find_caps(const std::int64_t* neighbours, std::int64_t count);
   bool drop_redundant_caps();
   std::optional<Crossing> crossing_of(int p, int q) const;
-  int find_crossing(int p) const;
-  bool is_surely_covered(int p, int first) const;
+  int find_crossing(int p);
+  bool is_surely_covered(int p, int widest) const;
   void find_corners(const Crossing& crossing);
   bool is_covered(Vec3d x, double error, int p, int q, int side) const;
   bool comes_before(const End& x, const End& y) const;
