@@ -80,6 +80,8 @@ void add_compare_options(CLI::App& command, CompareOptions& options) {
   add_value(command, "--pixel", options.pixel, "X,Y",
             "Print the path of one primary ray instead: nodes entered and spheres tested", pixel_from);
   add_selection(command, options.select);
+  command.add_flag("--boxes", options.boxes,
+                   in_lines("INPUT is CSV of boxes, xmin,ymin,zmin,xmax,ymax,zmax: find all boxes of rays and points"));
 }
 
 void add_tune_options(CLI::App& command, TuneCommandOptions& options) {

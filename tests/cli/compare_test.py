@@ -249,6 +249,29 @@ class Compare(ProgramTest):
         text = self.succeed("compare", "demo", "--pixel", "128,128", "--structures", "bih")
         self.assertIn("the ray through pixel 128,128 of 256 x 256", text)
 
+    def test_boxes(self):
+        cells = [(i % 6, i // 6 % 6, i // 36) for i in range(216)]
+        lines = [",".join(map(str, [*cell, *(c + 1 for c in cell)])) for cell in cells]
+        self.write("cells.csv", "xmin,ymin,zmin,xmax,ymax,zmax\n# a comment\n" + "\n".join(lines) + "\n")
+        result = self.compare("cells.csv", "--boxes", "--rays-count", "400", schema="boxes")
+        self.assertEqual((result["boxes"], [one["name"] for one in result["structures"]]), (216, ["bih", "bvh-sah", "brute"]))
+        for one in result["structures"]:
+            self.assertEqual(one["rays"]["different"] + one["points"]["different"], 0)
+            # A point lies in one cell, but for faces.
+            self.assertAlmostEqual(one["points"]["found"], 1, delta=0.01)
+            self.assertEqual(one["rays"]["found"], result["structures"][0]["rays"]["found"])
+        self.assertIn("Every structure finds the boxes of brute force.", self.succeed("compare", "cells.csv", "--boxes", "--rays-count", "50"))
+        for text, part in (
+            ("0,0,0,1,1\n", "bad.csv:1: expected six numbers"),
+            ("0,0,0,1,1,1\n0,0,0,1,1,1,1\n", "bad.csv:2: expected six numbers, found more"),
+            ("0,0,x,1,1,1\n", 'bad.csv:1: expected a number up to 1e37, found "x"'),
+            ("0,0,0,1,-1,1\n", "bad.csv:1: the box ends before it begins along y: 0 > -1"),
+            ("", "there is no box"),
+        ):
+            self.write("bad.csv", text)
+            self.assertIn(part, self.fail_input("compare", "bad.csv", "--boxes"))
+        self.assertIn("leave out", self.fail_usage("compare", "cells.csv", "--boxes", "--structures", "bih"))
+
     def test_selected_spheres(self):
         result = self.compare("demo", "--select", "name CA", "--structures", "bih,brute", "--rays", "points", *FEW)
         self.assertEqual(result["spheres"], 198)

@@ -27,7 +27,7 @@ OUTPUTS = {
     "thesis": [("--out", "report.html"), ("--out", "results.json")],
     "web": [("--html", ".html")],
 }
-NO_OUTPUT = {"stats", "info", "select", "scene", "styles"}
+NO_OUTPUT = {"stats", "tune", "info", "select", "scene", "styles"}
 # `bihive view` and `bihive web` take the names of looks and colours alone; `bihive thesis --page` is an output, and the only one.
 REFUSED = {("view", "--style"), ("view", "--element-colours"), ("web", "--style"), ("web", "--element-colours"), ("thesis", "--page")}
 

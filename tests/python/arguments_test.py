@@ -184,7 +184,7 @@ class Arguments(ProgramTest):
 
     def test_every_public_name_is_tried(self):
         tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
-                 "again", "angle", "buried_area", "colour_map", "contacts", "convert", "dihedral", "distance", "film", "linear", "measure", "page", "porosity", "read", "render", "sasa", "save_page", "select", "stats",
+                 "again", "angle", "buried_area", "colour_map", "compare", "contacts", "convert", "dihedral", "distance", "film", "linear", "measure", "page", "porosity", "read", "render", "sasa", "save_page", "select", "stats",
                  "verify", "view", "volume"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
@@ -215,6 +215,7 @@ class Arguments(ProgramTest):
         self.try_all(bh.distance, {"spheres": self.spheres, "pairs": [[0, 1], [2, 3]]})
         for call in (bh.measure, bh.sasa, bh.volume, bh.contacts):
             self.try_all(call, {"spheres": self.spheres})
+        self.try_all(bh.compare, {"spheres": self.spheres, "structures": ["bih"], "rays": ["random"], "count": 4})
         self.try_all(bh.porosity, {"spheres": bh.Spheres(np.zeros((1, 3)), radius=1, cell=[2, 2, 2])})
         self.try_all(bh.buried_area, {"spheres": self.spheres, "groups": [[0], [1, 2]]})
         self.try_all(bh.angle, {"spheres": self.spheres, "triples": [0, 1, 2]})

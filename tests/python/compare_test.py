@@ -46,6 +46,7 @@ class Compare(unittest.TestCase):
             ({"rays": ["x"]}, "rays: expected one of primary"),
             ({"count": 0}, "count"),
             ({"threads": -1}, "threads"),
+            ({"threads": []}, "threads: expected 1 to 16 numbers"),
         ):
             with self.assertRaises(bh.UsageError) as raised:
                 bh.compare(spheres, **arguments)

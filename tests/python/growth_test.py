@@ -118,6 +118,7 @@ def cases(folder):
         "select": lambda: bh.select(s, "charge > 0"),
         "distance": lambda: bh.distance(s, [[0, 1], [5, 9]]),
         "measure": lambda: bh.measure(few, probe=0.1, select="charge > 0", threads=2),
+        "compare": lambda: bh.compare(few, structures=["kd-sah"], rays=["points"], count=8),
         "sasa": lambda: bh.sasa(few),
         "volume": lambda: bh.volume(few),
         "Measures": fields(bh.measure(few, derivatives=True)),

@@ -143,9 +143,12 @@ struct CompareOptions {
   std::vector<int> threads{1, 0};            ///< a sweep and the path of a pixel's ray take the first one
   std::vector<std::string> sweep;            ///< parameters with values: "max-prims=1,2,4"
   std::optional<std::pair<int, int>> pixel;  ///< x, y of the primary picture: only the path of its ray
+  bool boxes = false;                        ///< the input is a file of boxes, not of spheres
   std::string output;                        ///< the report, HTML; empty: none
   bool json = false;
 };
+/// With `boxes`.
+void run_compare_boxes(const CompareOptions& options);
 void run_compare(const CompareOptions& options);
 
 /// Parameters of a tree searched (bihive/compare/tune.h).

@@ -160,6 +160,7 @@ Scene spheres_to_compare(const InputOptions& options, const std::string& select,
 }  // namespace
 
 void run_compare(const CompareOptions& options) {
+  if (options.boxes) return run_compare_boxes(options);
   check_usage(options);
   check_outputs(outputs_of(options), inputs_of(options), /*are_text=*/true);
   const Scene scene = spheres_to_compare(options.input, options.select, outputs_of(options));

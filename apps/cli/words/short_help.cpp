@@ -12,11 +12,12 @@ namespace bihive::cli {
 namespace {
 
 // The options that the short help of a long command shows.
-constexpr std::array kCommonOptions{"--help",      "--help-all", "--output",  "--frames",     "--fps",    "--turntable",
-                                    "--size",      "--samples",  "--style",   "--background", "--light",  "--ao",
-                                    "--view-from", "--turn",     "--zoom",    "--projection", "--select", "--colour",
-                                    "--colour-by", "--hide",     "--opacity", "--radius",     "--frame",  "--legend",
-                                    "--title",     "--port",     "--bind",    "--no-browser", "--html"};
+constexpr std::array kCommonOptions{
+    "--help",    "--help-all",   "--output",     "--frames", "--fps",       "--turntable", "--size",
+    "--samples", "--style",      "--background", "--light",  "--ao",        "--view-from", "--turn",
+    "--zoom",    "--projection", "--select",     "--colour", "--colour-by", "--hide",      "--opacity",
+    "--radius",  "--frame",      "--legend",     "--title",  "--port",      "--bind",      "--no-browser",
+    "--html",    "--structures", "--rays",       "--sweep",  "--pixel",     "--boxes"};
 // A command with more options than this has a short help and a long one.
 constexpr std::size_t kLongHelp = 30;
 

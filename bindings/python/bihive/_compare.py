@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, Optional, Union
 
-import numpy as np
-
 from . import _bihive
 from ._arrays import whole_numbers
 from ._checks import one_of, several
@@ -17,6 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 __all__ = ["compare"]
+
+_MOST_COUNTS_OF_THREADS = 16
 
 
 def compare(
@@ -44,12 +44,15 @@ def compare(
         raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
     if len(spheres) == 0:
         raise bad_argument("spheres", "there is no sphere")
+    at_once = several("threads", threads, "numbers") if isinstance(threads, (list, tuple)) else [threads]
+    if not 1 <= len(at_once) <= _MOST_COUNTS_OF_THREADS:
+        raise bad_argument("threads", f"expected 1 to {_MOST_COUNTS_OF_THREADS} numbers, found {found(threads)}")
     made = _bihive.compare(
         spheres._core,
         _names("structures", structures, _bihive.structure_names()),
         _names("rays", rays, _bihive.query_kind_names()),
         int(whole_numbers("count", count, 1, 1, 1 << 30)[0]),
-        [int(whole_numbers("threads", one, 1, 0, 4096)[0]) for one in np.atleast_1d(np.asarray(threads, dtype=object))],
+        [int(whole_numbers("threads", one, 1, 0, 4096)[0]) for one in at_once],
     )
     comparison: dict[str, Any] = json.loads(made)
     return comparison

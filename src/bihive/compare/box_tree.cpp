@@ -4,20 +4,6 @@
 
 namespace bihive::workbench {
 
-void fit_boxes(BoxTree& tree, const SphereSet& spheres) {
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    BoxNode& node = tree.nodes[i];
-    node.box = {};
-    if (node.is_leaf()) {
-      for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
-        node.box.add(outward_box(spheres, tree.sphere_ids[k]));
-    } else {
-      node.box.add(tree.nodes[node.first].box);
-      node.box.add(tree.nodes[node.first + 1].box);
-    }
-  }
-}
-
 StructureFacts facts_of(const BoxTree& tree) {
   StructureFacts facts;
   facts.bytes = static_cast<std::int64_t>(sizeof(BoxTree) + tree.nodes.capacity() * sizeof(BoxNode) +

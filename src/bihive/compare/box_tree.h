@@ -31,8 +31,23 @@ struct BoxTree {
   std::vector<std::uint32_t> sphere_ids;  ///< in the order of leaves
 };
 
-/// Makes all boxes from the spheres, from the last node to the first.
-void fit_boxes(BoxTree& tree, const SphereSet& spheres);
+/// Makes all boxes from those of the items, box_of(id), from the last node to the first.
+template <class BoxOf>
+void fit_boxes(BoxTree& tree, const BoxOf& box_of) {
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    BoxNode& node = tree.nodes[i];
+    node.box = {};
+    if (node.is_leaf()) {
+      for (std::uint32_t k = node.first; k < node.first + node.count; ++k) node.box.add(box_of(tree.sphere_ids[k]));
+    } else {
+      node.box.add(tree.nodes[node.first].box);
+      node.box.add(tree.nodes[node.first + 1].box);
+    }
+  }
+}
+inline void fit_boxes(BoxTree& tree, const SphereSet& spheres) {
+  fit_boxes(tree, [&](std::uint32_t id) { return outward_box(spheres, id); });
+}
 StructureFacts facts_of(const BoxTree& tree);
 
 /// Takes a query from box to box. `entry(box)` returns a number that says where the query enters it, or +inf: never;
