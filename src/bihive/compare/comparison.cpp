@@ -89,6 +89,7 @@ class Run {
 
   Result<StructureResult> measure(const StructureRow& row) {
     StructureResult result{row, 0, -1, {}, {}, {}};
+    return_free_memory();
     const bool has_peak = forget_peak();
     const std::int64_t before = resident_bytes();
     const Timer timer;
