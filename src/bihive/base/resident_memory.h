@@ -4,9 +4,6 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 
 namespace bihive {
 
@@ -24,14 +21,6 @@ inline std::int64_t status_bytes(const std::string& name) {
 /// Resident bytes now; 0 if the system does not report them.
 inline std::int64_t resident_bytes() {
   return status_bytes("VmRSS");
-}
-
-/// Gives memory that was freed back to the system, where the C library can: what is allocated next becomes resident
-/// anew.
-inline void return_free_memory() {
-#if defined(__GLIBC__)
-  malloc_trim(0);
-#endif
 }
 
 /// The peak of resident bytes since forget_peak(); 0 if the system does not report it.
