@@ -153,8 +153,11 @@ class Compare(ProgramTest):
         self.assertNotIn("{{", text)
         for name in STRUCTURES:
             self.assertIn(name, text)
+        self.assertIn("What a step costs", text)
+        # A single kind has too few groups for a fit.
         done = self.run_bihive("compare", "<b>&.xyz", *FEW, "--rays", "random", "-o", "-")
         self.assertEqual(done.returncode, 0)
+        self.assertNotIn("What a step costs", done.stdout)
         self.assertTrue(done.stdout.startswith("<!DOCTYPE html>"))
         self.assertIn("Every answer has the bits", done.stderr)
 

@@ -126,6 +126,8 @@ must::data surface_of(const workbench::Sweep& sweep, const workbench::SweptStruc
 std::string comparison_html(const Comparison& comparison, const std::string& name) {
   must::data view = page_of(name, comparison.spheres, threads_text(comparison.threads));
   view.set("comparison", true);
+  view.set("fits", std::any_of(comparison.structures.begin(), comparison.structures.end(),
+                               [](const StructureResult& one) { return one.fit.found(); }));
   view.set("answer", answer_of(comparison));
   view.set("same_bits", comparison.same_bits());
   view.set("first_threads", threads_text({comparison.threads.front()}));

@@ -48,7 +48,7 @@ class KdSah final : public ByRay<KdSah> {
     max_prims_ = std::max<std::int64_t>(1, parameters.max_prims);
     planes_ = parameters.candidates > 0 ? parameters.candidates : kPlanes;
     // The usual bound of levels [Wald2006], unless there is a parameter.
-    const auto usual = 9 + 13 * std::bit_width(static_cast<std::uint64_t>(spheres.size())) / 10;
+    const std::int64_t usual = 9 + 13 * std::int64_t(std::bit_width(std::uint64_t(spheres.size()))) / 10;
     levels_ = std::min<std::int64_t>(kMostKdLevels, parameters.max_depth > 0 ? parameters.max_depth : usual);
     for (std::int64_t id = 0; id < spheres.size(); ++id) box_.add(outward_box(spheres, id));
     build();
@@ -80,8 +80,8 @@ class KdSah final : public ByRay<KdSah> {
       pending.push_back({node.first, part_below(at.cell, node.axis, node.plane), at.level + 1});
       pending.push_back({node.first + 1, part_above(at.cell, node.axis, node.plane), at.level + 1});
     }
-    const double whole = half_surface(box_);
-    if (whole > 0) facts.expected_nodes = nodes / whole, facts.expected_spheres = spheres / whole;
+    if (const double whole = half_surface(box_); whole > 0)
+      facts.expected_nodes = nodes / whole, facts.expected_spheres = spheres / whole;
     return facts;
   }
 

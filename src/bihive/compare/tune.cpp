@@ -19,7 +19,7 @@ constexpr std::size_t kTimedAtMost = 8;
 constexpr double kCalibrationMs = 50;
 constexpr double kRoundMs = 10;
 constexpr std::int64_t kFirstRounds = 3;  // of all candidates; those that remain get as many again, and so on
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Built {
   TuneCandidate candidate;
@@ -83,7 +83,7 @@ class Tuner {
     const StructureFacts facts = one.structure->facts();
     one.candidate.parameters = parameters;
     one.candidate.bytes = facts.bytes, one.candidate.depth = facts.depth;
-    one.candidate.ns = one.candidate.counted_ns = kNone;
+    one.candidate.ns = one.candidate.counted_ns = kNotMeasured;
     double kinds = 0;
     for (const AnsweredSet& set : sets_) {
       one.works.push_back(count_all(*one.structure, set.set, tuning_.threads));
@@ -137,7 +137,7 @@ class Tuner {
         ns += tuning_.costs.ns_of(mean_work(works, all));
         ++kinds;
       }
-      one.candidate.counted_ns = tuning_.costs.found() ? ns / kinds : kNone;
+      one.candidate.counted_ns = tuning_.costs.found() ? ns / kinds : kNotMeasured;
     }
     const auto rank = [&](const Built& one) {
       return tuning_.costs.found() ? one.candidate.counted_ns : one.candidate.work;
