@@ -237,13 +237,13 @@ TEST(SmallCif, LabelsInCapitalsAreReadByTheFormula) {
     }
     return read_text(kCube + head + kLabels + rows, "a.cif").spheres.attributes().element;
   };
-  using Elements = std::vector<std::uint8_t>;
-  EXPECT_EQ(elements("", "C1 O1 HO1 HC1 CA2 CO3 Ca4 CL5 ZN6 AL7"), (Elements{6, 8, 1, 1, 6, 6, 20, 17, 30, 13}));
+  using AtomicNumbers = std::vector<std::uint8_t>;
+  EXPECT_EQ(elements("", "C1 O1 HO1 HC1 CA2 CO3 Ca4 CL5 ZN6 AL7"), (AtomicNumbers{6, 8, 1, 1, 6, 6, 20, 17, 30, 13}));
   // The formula, or the list of types, tells two readings apart.
-  EXPECT_EQ(elements("_chemical_formula_sum 'C2 CO H'\n", "CO1 HO1 C1"), (Elements{27, 1, 6}));
-  EXPECT_EQ(elements("_chemical_formula_sum 'Ca0.5 O H2'\n", "CA1 HO1 O1"), (Elements{20, 1, 8}));
-  EXPECT_EQ(elements("loop_\n_atom_type_symbol\nNi2+\nO\n", "NI1 O1"), (Elements{28, 8}));
-  EXPECT_EQ(elements("_chemical_formula_sum 'C H O'\n", "Ho1 Co1"), (Elements{1, 6}));
+  EXPECT_EQ(elements("_chemical_formula_sum 'C2 CO H'\n", "CO1 HO1 C1"), (AtomicNumbers{27, 1, 6}));
+  EXPECT_EQ(elements("_chemical_formula_sum 'Ca0.5 O H2'\n", "CA1 HO1 O1"), (AtomicNumbers{20, 1, 8}));
+  EXPECT_EQ(elements("loop_\n_atom_type_symbol\nNi2+\nO\n", "NI1 O1"), (AtomicNumbers{28, 8}));
+  EXPECT_EQ(elements("_chemical_formula_sum 'C H O'\n", "Ho1 Co1"), (AtomicNumbers{1, 6}));
   EXPECT_TRUE(says(read_text(kCube + kLabels + "HO1 0 0 0\n", "a").rules, "of labels in capitals"));
 }
 

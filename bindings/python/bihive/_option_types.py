@@ -125,6 +125,9 @@ class RenderOptions(ReadOptions, total=False):
     title_values: Optional[Path]  # CSV: a row for each frame, from 0; the first line names the columns: {NAME}
     font: Optional[Path]  # Font of titles, legends and the rest: TrueType or OpenType (DejaVu Sans)
     no_labels: Optional[bool]  # None of the labels that the scene file or the style asks for
+    links: Optional[Union[Path, npt.ArrayLike, Mapping[str, npt.ArrayLike]]]  # Draw a stick for each row of a CSV file, whose columns first and second are the numbers of two spheres, from 0
+    link_radius: Optional[Union[float, str]]  # Radius of these sticks, or F times a column (a quarter of the smaller sphere's)
+    link_colour: Optional[Union[Colour, str]]  # Colour of these sticks, or a column that colours them (their spheres')
 
 
 class FilmOptions(RenderOptions, total=False):
