@@ -24,7 +24,7 @@ NumbersView column_of(const pybind11::array& array, pybind11::ssize_t column);
 /// The numbers of a 1-D array.
 NumbersView view_of(const pybind11::array& array);
 
-/// Arrays of at most so many numbers are copied, which takes less time than the object that would own the vector.
+/// Arrays of at most this many numbers are copied, which takes less time than the object that would own the vector.
 inline constexpr std::size_t kFewNumbers = 256;
 
 /// A new array of these numbers, which it owns.
