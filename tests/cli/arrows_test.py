@@ -69,7 +69,7 @@ class Arrows(ProgramTest):
         self.assertIn("above 0", self.refused("--trace", "mol", "--trace-radius", "vx"))
         self.assertIn("transparent spheres", self.refused("--arrows", "vx,vy,vz", "--opacity", "0.5"))
         self.assertIn("tree", self.refused("--trace", "mol", "--view", "traversal"))
-        self.assertIn("draws no bonds, arrows and tubes", self.refused("--trace", "mol", "--engine", "gpu"))
+        self.assertIn("draws no bonds, arrows, tubes and links", self.refused("--trace", "mol", "--engine", "gpu"))
 
     def test_what_cannot_be_seen_is_told(self):
         def told(*options):

@@ -249,17 +249,14 @@ void draw_arrows(const Arrows& arrows, bool is_of_film, Scene& scene) {
 
 constexpr const char* kOfLinks[] = {"link_radius", "link_colour"};
 
-// Refuses what is stated about links where there are none, or where they cannot be drawn.
-void check_links(const PictureRequest& request, const WholeSet* whole) {
+// Refuses what is stated about links where there are none.
+void check_links(const PictureRequest& request) {
   const Links& links = request.links;
   const std::string* const stated[] = {&links.radius, &links.colour};
   for (std::size_t i = 0; i < std::size(kOfLinks); ++i)
     if (!links.any() && !stated[i]->empty())
       fail_setting(kOfLinks[i], " is for pictures with links, and this one has none",
                    "add " + setting_name("links") + " FILE");
-  if (links.any() && whole != nullptr)
-    fail_setting("links", " are not drawn between spheres that are distributed over ranks",
-                 "leave " + setting_name("links") + " out");
 }
 
 void draw_links(const Links& links, bool is_of_film, Scene& scene) {
@@ -370,7 +367,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   const double cavity_probe = choose_cavities(request, input.scene, whole);
   const Arrows arrows = choose_arrows(request, input.scene, whole);
   const Traces traces = choose_traces(request, input.scene, whole);
-  check_links(request, whole);
+  check_links(request);
   if (has_bonds) done_or_fail_bonds(scale_balls(input.scene, sticks));
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
   if (has_bonds) done_or_fail_bonds(find_bonds(input.scene, sticks, static_cast<int>(request.threads)));
