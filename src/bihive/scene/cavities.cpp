@@ -22,7 +22,7 @@ Status check_scene_of_cavities(const Scene& scene) {
   };
   if (scene.spheres.has_images()) return refused("copies", "leave out " + setting_name("replicate"));
   if (has_clips(scene)) return refused("cut spheres", "leave out " + setting_name("clip"));
-  if (!scene.sticks.empty()) return refused("bonds, arrows and tubes", "leave them out");
+  if (!scene.sticks.empty()) return refused("bonds, arrows, tubes and links", "leave them out");
   const SphereAttributes& attributes = scene.spheres.attributes();
   if (attributes.find_numbers(kColumnOfCavities) != nullptr || attributes.find_texts(kColumnOfCavities) != nullptr)
     return Error{std::string("there is a column ") + kColumnOfCavities + " already", "", 0, 0,
