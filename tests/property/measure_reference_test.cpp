@@ -2,6 +2,7 @@
 // ctest: alone
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -84,7 +85,7 @@ TEST(MeasureReference, AgreesOnHollows) {
     EXPECT_EQ(test::measure_differences(balls, true), "") << "set " << set << "\n" << test::text_of_balls(balls);
     cavities += test::small_union(balls).cavities > 0 ? 1 : 0;
   }
-  EXPECT_GT(cavities, sets / 10);
+  EXPECT_GE(cavities, std::max(1, sets / 10));
   EXPECT_LT(cavities, sets);
 }
 
