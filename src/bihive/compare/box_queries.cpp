@@ -215,12 +215,13 @@ class BihBoxes final : public BoxesByQuery<BihBoxes> {
 
 template <class Made>
 Result<std::unique_ptr<const BoxStructure>> build_boxes(const std::vector<Box>& boxes) {
-  if (std::ssize(boxes) > std::int64_t{std::numeric_limits<std::uint32_t>::max()})
-    return Error{grouped(std::ssize(boxes)) + " boxes are too many: at most 4,294,967,295", "", 0, 0, ""};
+  const std::int64_t count = std::ssize(boxes);
+  if (count > std::int64_t{std::numeric_limits<std::uint32_t>::max()})
+    return Error{grouped(count) + " boxes are too many: at most 4,294,967,295", "", 0, 0, ""};
   try {
     return std::unique_ptr<const BoxStructure>(std::make_unique<Made>(boxes));
   } catch (const std::bad_alloc&) {
-    return Error{"not enough memory for " + grouped(std::ssize(boxes)) + " boxes", "", 0, 0, ""};
+    return Error{"not enough memory for " + grouped(count) + " boxes", "", 0, 0, ""};
   }
 }
 

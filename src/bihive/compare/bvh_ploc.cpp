@@ -79,7 +79,7 @@ class Merging {
   std::int64_t nearest_of(std::int64_t i) const {
     std::int64_t best = -1;
     std::tuple<double, std::int64_t, bool, std::int64_t> least;
-    const std::int64_t last = std::min(std::ssize(active_) - 1, i + neighbours_);
+    const std::int64_t last = std::min<std::int64_t>(std::ssize(active_) - 1, i + neighbours_);
     for (std::int64_t k = std::max<std::int64_t>(0, i - neighbours_); k <= last; ++k) {
       if (k == i) continue;
       Aabb box = clusters_[active_[static_cast<std::size_t>(i)]].box;
