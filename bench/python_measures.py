@@ -6,7 +6,8 @@ usage: PYTHONPATH=build-release/python bench/python_measures.py [--made] [--voro
 Each FILE is a molecule, with a probe of 1.4. The peers get the same numbers, coordinates with three decimals and radii with two; their
 time is that of the whole process, reading included, and bihive's that of bh.volume() (which computes the area too), bh.measure() (cavities and
 volumes of spheres too) and bh.contacts(), so the rates favour bihive. A peer that is not
-there is left out. --made: a million spheres, and lattices in contact. The median of five turns, or of three for a million spheres.
+there is left out. --made: a million spheres, lattices in contact, and 50 copies of the
+bundled molecule with the probe. The median of five turns, or of three for a million spheres.
 """
 
 import argparse
@@ -115,3 +116,9 @@ if __name__ == "__main__":
         spheres = bh.Spheres(xyz, radius=radius)
         _, seconds = taken(lambda: bh.volume(spheres), turns)
         print(f"{name}: area and volume of {len(xyz)} spheres in {seconds:.2f} s, {len(xyz) / seconds:,.0f} per second", flush=True)
+    if options.made:
+        one = bh.read("demo")
+        copies = bh.Spheres(np.concatenate([one.xyz + [200 * i, 0, 0] for i in range(50)]), radius=np.tile(one.radius, 50))
+        for name, call in (("area", bh.sasa), ("area and volume", bh.volume)):
+            _, seconds = taken(lambda: call(copies, probe=PROBE))
+            print(f"50 copies of the bundled molecule, probe {PROBE}: {name} of {len(copies):,} atoms, {len(copies) / seconds:,.0f} per second", flush=True)

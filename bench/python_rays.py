@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """Rays per second from Python, and the memory of Spheres of a large array.
 
-usage: PYTHONPATH=build-release/python bench/python_rays.py
+usage: PYTHONPATH=build-release/python bench/python_rays.py [THREADS]       all by default
 
-Two million random rays at the bundled molecule, nine times in turn from arrays in C order, which are copied into columns,
-and from columns, which the engine reads where they lie; medians. Then Spheres of 62.5 million rows of float32.
+Two million random rays at the bundled molecule, nine times in turn from arrays of float64 and float32 in C order, which are copied
+into columns, and from columns, which the engine reads where they lie; medians. Then Spheres of 62.5 million rows of float32.
 """
 
 import resource
 import statistics
+import sys
 import time
 
 import numpy as np
@@ -22,10 +23,11 @@ rng = np.random.default_rng(1)
 count = 2_000_000
 spheres = bh.read("demo")
 low, high = spheres.bounds
-origins = rng.uniform(low - 20, high + 20, (count, 3)).astype(np.float32)
-directions = rng.uniform(low, high, (count, 3)).astype(np.float32) - origins
-tree = bh.Tree(spheres)
-orders = {"C order": (origins, directions), "columns": (np.asfortranarray(origins), np.asfortranarray(directions))}
+wide = rng.uniform(low - 20, high + 20, (count, 3)), rng.uniform(low, high, (count, 3))
+wide = wide[0], wide[1] - wide[0]
+single = tuple(array.astype(np.float32) for array in wide)
+tree = bh.Tree(spheres, threads=int(sys.argv[1]) if len(sys.argv) > 1 else 0)
+orders = {"C order, float64": wide, "C order, float32": single, "columns": tuple(np.asfortranarray(array) for array in single)}
 rates = {name: [] for name in orders}
 for _ in range(9):
     for name, rays in orders.items():

@@ -28,7 +28,7 @@ using workbench::Comparison;
 using workbench::KindResult;
 using workbench::StructureResult;
 
-// Only these spheres, as a set of their own: what rays meet, without colours and names.
+// A set of these spheres alone: centres and radii, without attributes.
 void keep_selected(Scene& scene, const std::vector<std::uint8_t>& mask) {
   const SphereSet& all = scene.spheres;
   StoredSpheres kept;

@@ -1,4 +1,4 @@
-// What bihive compare and bihive tune print.
+// The text output of bihive compare and bihive tune.
 #pragma once
 
 #include <string>

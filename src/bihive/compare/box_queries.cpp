@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-// The boxes, and the same times a power of two that brings them into [-1, 1], rounded outward: what trees divide.
+// The boxes, and copies for the trees: scaled by a power of two into [-1, 1], and rounded outward.
 class BoxItems {
  public:
   explicit BoxItems(std::vector<Box> boxes) : boxes_(std::move(boxes)) {

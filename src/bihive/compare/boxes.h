@@ -115,6 +115,12 @@ class RayAndBoxes {
     return part;
   }
 
+  /// Where that interval begins; infinite where it is empty.
+  double entry(const Aabb& box) const {
+    const Interval part = inside(box);
+    return part.empty() ? std::numeric_limits<double>::infinity() : part.t_near;
+  }
+
   double inverse(int axis) const { return inverse_[axis]; }
   /// In stored units.
   double pad() const { return pad_; }

@@ -22,7 +22,7 @@ struct Cluster {
   Aabb box;
   std::uint32_t left, right;
   std::uint32_t spheres;
-  double cost;  // of the cheapest tree below, as the surface area heuristic counts: entering and testing cost 1
+  double cost;  // SAH cost of the cheapest subtree, with unit costs for a node and a sphere test
 
   bool is_sphere() const { return right == kNoChild; }
 };
@@ -73,9 +73,8 @@ class Merging {
     }
   }
 
-  // The order of pairs is the same from both sides, so the first of all pairs always merges. Where surfaces are equal,
-  // as those of coincident spheres, neighbours 0 and 1, 2 and 3 and so on choose each other, and half of the clusters
-  // stay.
+  // Pairs compare alike from both sides, so the least pair always merges. Where surface areas are equal, as for
+  // coincident spheres, clusters 0 and 1, 2 and 3 and so on choose each other, which halves their number.
   std::int64_t nearest_of(std::int64_t i) const {
     std::int64_t best = -1;
     std::tuple<double, std::int64_t, bool, std::int64_t> least;

@@ -17,8 +17,7 @@ namespace {
 constexpr std::int64_t kGroupsOfKind = 4;  // of queries with a similar number of steps, for the fit
 constexpr TimingEffort kGroupEffort{5, 40, 3};
 
-// Gives memory that was freed back to the system, where the C library can: what is allocated next becomes resident
-// anew.
+// Returns freed memory to the system, where the C library can, so that later allocations count as resident again.
 void return_free_memory() {
 #if defined(__GLIBC__)
   malloc_trim(0);

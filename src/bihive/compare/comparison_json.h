@@ -1,4 +1,4 @@
-// What bihive compare and bihive tune measured, as JSON: docs/comparison.schema.json, docs/sweep.schema.json,
+// JSON of bihive compare and bihive tune: docs/comparison.schema.json, docs/sweep.schema.json,
 // docs/tuning.schema.json and docs/ray_paths.schema.json describe the objects.
 #pragma once
 

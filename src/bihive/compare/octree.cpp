@@ -86,10 +86,7 @@ class Octree final : public ByRay<Octree> {
   template <class Answer, class Counter>
   void trace(const ScaledRay& ray, Answer& answer, Counter& counter) const {
     const RayAndBoxes boxes(ray);
-    const auto entry = [&](const Aabb& box) {
-      const Interval part = boxes.inside(box);
-      return part.empty() ? std::numeric_limits<double>::infinity() : part.t_near;
-    };
+    const auto entry = [&](const Aabb& box) { return boxes.entry(box); };
     traverse(
         entry, [&] { return answer.limit(); }, [&](std::int64_t id) { return test(ray, id, answer, counter); },
         counter);
