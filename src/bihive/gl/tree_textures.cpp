@@ -18,10 +18,10 @@ constexpr std::int64_t kMostSpheresOfLeaf = (std::int64_t{1} << 27) - 1;
 // Lights farther away shine from the same direction, but the squares of their distances would leave binary32.
 constexpr double kFarthestLight = 1e15;
 
-using Look = std::array<float, std::size_t{4} * kTexelsOfLook>;
+using LookTexels = std::array<float, std::size_t{4} * kTexelsOfLook>;
 
 struct HashOfLook {
-  std::size_t operator()(const Look& look) const {
+  std::size_t operator()(const LookTexels& look) const {
     std::uint64_t hash = 14695981039346656037u;
     for (const float value : look) {
       std::uint32_t bits = 0;
@@ -44,7 +44,7 @@ float float_of(std::uint32_t bits) {
   return value;
 }
 
-Look look_of(const Material& m) {
+LookTexels look_of(const Material& m) {
   // Adding 0 makes looks with -0 and 0 equal.
   const auto number = [](double value) { return static_cast<float>(value) + 0.0F; };
   return {number(m.colour.x),
@@ -99,12 +99,12 @@ Status pack_spheres(const Scene& scene, const Tree* tree, std::int64_t most_texe
   const SphereAttributes& attributes = spheres.attributes();
 
   // Equal looks share one entry; the first entry belongs to the plane alone.
-  std::unordered_map<Look, std::uint32_t, HashOfLook> numbers;
-  std::vector<Look> looks{look_of(scene.plane ? scene.plane->material : Material{})};
+  std::unordered_map<LookTexels, std::uint32_t, HashOfLook> numbers;
+  std::vector<LookTexels> looks{look_of(scene.plane ? scene.plane->material : Material{})};
   for (std::int64_t position = 0; position < packed.sphere_count; ++position) {
     const std::int64_t id = ids[static_cast<std::size_t>(position)];
     const auto i = static_cast<std::size_t>(id);
-    const Look look = look_of(material_of(scene, id));
+    const LookTexels look = look_of(material_of(scene, id));
     const auto [entry, is_new] = numbers.try_emplace(look, static_cast<std::uint32_t>(looks.size()));
     if (is_new) looks.push_back(look);
 

@@ -19,7 +19,7 @@ constexpr double kMarker = 4.2;
 
 // Axes: an inner node in sphere tests, a leaf in inner nodes. costs.svg has their ticks.
 constexpr double kLeastInner = 0.25, kMostInner = 16, kMostLeaf = 1;
-constexpr int kColumns = 120, kRows = 51;
+constexpr int kSampleColumns = 120, kSampleRows = 51;
 
 // Shades from pale to deep blue, in equal steps of sRGB.
 std::string colour_of(int wins, int most) {
@@ -168,9 +168,9 @@ CostDiagram cost_diagram(const FigureWork& work, const WinPattern& pattern, cons
                   tree_name(pattern.exception_max_prims), pattern.exception.first, pattern.exception.second);
   diagram.share_label = fmt::format("the same with at least half of {} seeds", seeds.size());
   diagram.most_wins = static_cast<int>(work.size());
-  for (int i = 0; i < kColumns; ++i)
-    diagram.inner.push_back(kLeastInner * std::pow(kMostInner / kLeastInner, i / (kColumns - 1.0)));
-  for (int i = 0; i < kRows; ++i) diagram.leaf.push_back(kMostLeaf * i / (kRows - 1));
+  for (int i = 0; i < kSampleColumns; ++i)
+    diagram.inner.push_back(kLeastInner * std::pow(kMostInner / kLeastInner, i / (kSampleColumns - 1.0)));
+  for (int i = 0; i < kSampleRows; ++i) diagram.leaf.push_back(kMostLeaf * i / (kSampleRows - 1));
   for (const double leaf : diagram.leaf)
     for (const double inner : diagram.inner) {
       const StepCosts costs{inner, leaf, 0};
