@@ -80,8 +80,15 @@ void add_compare_options(CLI::App& command, CompareOptions& options) {
   add_value(command, "--pixel", options.pixel, "X,Y",
             "Print the path of one primary ray instead: nodes entered and spheres tested", pixel_from);
   add_selection(command, options.select);
-  command.add_flag("--boxes", options.boxes,
-                   in_lines("INPUT is CSV of boxes, xmin,ymin,zmin,xmax,ymax,zmax: find all boxes of rays and points"));
+  command.add_flag(
+      "--boxes", options.boxes,
+      in_lines("INPUT has boxes, CSV of xmin,ymin,zmin,xmax,ymax,zmax or a geometry of ORANGE (JSON): find all "
+               "boxes of rays and points"));
+  command
+      .add_option("--universe", options.universe,
+                  "With --boxes: the universe of a geometry, by its name or its position (0)")
+      ->type_name("NAME|N")
+      ->needs("--boxes");
 }
 
 void add_tune_options(CLI::App& command, TuneCommandOptions& options) {

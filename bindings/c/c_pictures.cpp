@@ -19,6 +19,7 @@
 #include "bihive/job/picture_options.h"
 #include "bihive/job/picture_record.h"
 #include "bihive/job/prepare_picture.h"
+#include "bihive/job/tuned_tree.h"
 #include "bihive/render/finished_pixels.h"
 #include "bihive/render/memory.h"
 #include "bihive/render/renderer.h"
@@ -269,10 +270,12 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     value_or_fail(check_picture_memory(width, height));
 
     // Its tree.
-    const bool has_tree =
-        !changes_spheres && engine == RenderEngine::automatic && !request.tree.max_prims && !request.tree.max_depth;
+    const bool has_tree = !changes_spheres && engine == RenderEngine::automatic && !request.tree.max_prims &&
+                          !request.tree.max_depth && !request.tune;
     std::optional<Tracer> own;
-    if (!has_tree) own.emplace(value_or_fail(Tracer::build(input.scene, structure_of(engine), request.tree, threads)));
+    if (!has_tree)
+      own.emplace(value_or_fail(
+          Tracer::build(input.scene, structure_of(engine), tree_for(request, engine, input.scene, settings), threads)));
 
     // The picture.
     const Section section(work, 0, 1);

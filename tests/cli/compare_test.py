@@ -239,6 +239,23 @@ class Compare(ProgramTest):
         self.write("one.xyz", "1\n\nC 1 2 3\n")
         self.assertIn("nothing to gain", self.succeed("tune", "one.xyz", "--rays-count", "64"))
 
+    def test_pictures_with_a_tuned_tree(self):
+        picture = ["demo", "--size", "48x32", "--samples", "1", "-o"]
+        self.succeed("render", *picture, "own.png")
+        said = self.run_bihive("render", *picture, "tuned.png", "--tune").stderr
+        self.assertRegex(said, "^bihive: (--max-prims \\d+(, --max-depth \\d+)?: [\\d.]+ times as fast as the engine's own choice|no other tree is faster.*)\n$")
+        self.assertEqual(self.read("own.png"), self.read("tuned.png"))
+        said = self.run_bihive("render", *picture, "reference.png", "--tune", "--engine", "reference").stderr
+        self.assertEqual(self.read("own.png"), self.read("reference.png"))
+        # A film has the tree of its first frame.
+        self.write("two.xyz", "2\n\nC 0 0 0\nO 1 1 1\n" * 3)
+        said = self.run_bihive("film", "two.xyz", "-o", "film/%05d.png", "--size", "16x16", "--tune").stderr
+        self.assertEqual(said.count("the engine's own choice"), 1)
+        for words in (["--max-prims", "4"], ["--view", "tree"], ["--engine", "brute"]):
+            self.assertIn("--tune", self.fail_usage("render", *picture, "no.png", "--tune", *words))
+        self.succeed("scene", "save", "scene.json", "demo", "--tune")
+        self.assertIn("own choice", self.run_bihive("render", "scene.json", "--size", "48x32", "--samples", "1", "-o", "saved.png").stderr)
+
     def test_path_of_a_pixel(self):
         result = self.compare("demo", "--pixel", "128,128", schema="ray_paths")
         self.assertEqual([one["name"] for one in result["structures"]], STRUCTURES)
@@ -274,6 +291,36 @@ class Compare(ProgramTest):
             self.write("bad.csv", text)
             self.assertIn(part, self.fail_input("compare", "bad.csv", "--boxes"))
         self.assertIn("leave out", self.fail_usage("compare", "cells.csv", "--boxes", "--structures", "bih"))
+
+    def test_boxes_of_a_geometry(self):
+        cells = [{"bbox": [[i, 0, 0], [i + 1, 1, 1]], "logic": "0"} for i in range(5)]
+        outer = {"md": {"name": "outer"}, "volumes": [{"logic": "0"}, *cells, {"bbox": None}, {"bbox": [[None, 0, 0], [1, 1, 1]]}, {"bbox": [[-1e300, 0, 0], [1, 1, 1]]}]}
+        inner = {"volumes": cells[:2]}
+        geometry = {"_format": "ORANGE", "universes": [outer, inner, {"md": {"name": "array"}, "_type": "rectarray"}, {"volumes": [{"bbox": None}]}]}
+        self.write("geometry.org.json", json.dumps(geometry))
+        words = ["compare", "geometry.org.json", "--boxes", "--rays-count", "50"]
+        result = self.run_bihive(*words, "--json")
+        self.assertIn("4 volumes without a finite box are left out", result.stderr)
+        found = json.loads(result.stdout)
+        jsonschema.validate(found, schema_of("boxes"))
+        self.assertEqual((found["boxes"], found["universe"]), (5, "outer"))
+        self.assertEqual(self.succeed_json(*words, "--universe", "1")["boxes"], 2)
+        for universe, part in (
+            ("otter", "did you mean outer?"), ("9", "it has 4: the first is outer, the last 3"), ("array", 'universe "array" has no volumes'),
+            ("3", 'no volume of universe "3" has a finite box'),
+        ):
+            self.assertIn(part, self.fail_input(*words, "--universe", universe))
+        for bbox, part in (
+            ([[0, 0, 0]], "[[x, y, z], [x, y, z]]"), ([[0, 0, "a"], [1, 1, 1]], "something else than numbers"),
+            ([[0, 2, 0], [1, 1, 1]], 'universe "0", volume 0: its bbox ends before it begins along y'),
+        ):
+            self.write("bad.json", json.dumps({"universes": [{"volumes": [{"bbox": bbox}]}]}))
+            self.assertIn(part, self.fail_input("compare", "bad.json", "--boxes"))
+        self.write("bad.json", "{")
+        self.assertIn("not valid JSON", self.fail_input("compare", "bad.json", "--boxes"))
+        self.write("one.csv", "0,0,0,1,1,1\n")
+        self.assertIn("is CSV", self.fail_usage("compare", "one.csv", "--boxes", "--universe", "a"))
+        self.assertIn("--boxes", self.fail_usage("compare", "demo", "--universe", "a"))
 
     def test_selected_spheres(self):
         result = self.compare("demo", "--select", "name CA", "--structures", "bih,brute", "--rays", "points", *FEW)

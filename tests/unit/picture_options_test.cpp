@@ -34,11 +34,12 @@ TEST(PictureOptions, EachHasAnIdOfItsOwnAndSaysHowItWorksOnRanks) {
   for (const RequestOption<PictureRequest>& row : picture_options()) {
     EXPECT_TRUE(ids.insert(row.id).second) << row.id;
     EXPECT_FALSE(row.help.empty()) << row.id;
-    // The default is to refuse. Sticks are between spheres of several ranks, and so are the walls of cavities.
+    // The default is to refuse. Sticks are between spheres of several ranks, and so are the walls of cavities; trees
+    // are searched for whole sets.
     const bool is_of_several =
         std::set<std::string>{"bonds", "bond_reach", "stick_radius", "ball_scale"}.contains(std::string(row.id)) ||
         row.id.starts_with("arrow") || row.id.starts_with("link") || row.id.starts_with("trace") ||
-        row.id == "show_cavities";
+        row.id == "show_cavities" || row.id == "tune";
     EXPECT_EQ(row.ranks == ParameterRanks::refused, is_of_several) << row.id;
   }
   for (const RequestOption<PictureRequest>& row : picture_options())

@@ -144,6 +144,7 @@ struct CompareOptions {
   std::vector<std::string> sweep;            ///< parameters with values: "max-prims=1,2,4"
   std::optional<std::pair<int, int>> pixel;  ///< x, y of the primary picture: only the path of its ray
   bool boxes = false;                        ///< the input is a file of boxes, not of spheres
+  std::string universe;                      ///< with `boxes`: of a geometry of ORANGE; empty: the first
   std::string output;                        ///< the report, HTML; empty: none
   bool json = false;
 };

@@ -3,75 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "bihive/base/parse_number.h"
 #include "bihive/base/readable.h"
 #include "bihive/base/version.h"
-#include "bihive/base/write_file.h"
 #include "bihive/compare/box_queries.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
+#include "commands/box_file.h"
 #include "commands/commands.h"
 #include "commands/compare_text.h"
 
 namespace bihive::cli {
 namespace {
 
-using workbench::Box;
 using workbench::BoxKindResult;
 using workbench::BoxStructureResult;
-
-constexpr const char* kColumns = "xmin,ymin,zmin,xmax,ymax,zmax";
-constexpr double kFarthest = 1e37;  // rays are binary32
-
-// One line of the file; a message without the line's number, or an empty text.
-std::string read_box(const std::string& line, Box& box) {
-  std::array<double, 6> numbers{};
-  std::size_t first = 0;
-  for (std::size_t column = 0; column < 6; ++column) {
-    if (first > line.size()) return fmt::format("expected six numbers, {}, found {}", kColumns, column);
-    const std::size_t end = std::min(line.find(',', first), line.size());
-    std::string field = line.substr(first, end - first);
-    field.erase(0, field.find_first_not_of(" \t"));
-    field.erase(field.find_last_not_of(" \t") + 1);
-    const auto number = parse_double(field);
-    if (!number || !(std::abs(*number) <= kFarthest))
-      return fmt::format("expected a number up to 1e37, found \"{}\"", field);
-    numbers[column] = *number;
-    first = end + 1;
-  }
-  if (first <= line.size()) return "expected six numbers, found more";
-  box = {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
-  for (int axis = 0; axis < 3; ++axis)
-    if (box.lo[axis] > box.hi[axis])
-      return fmt::format("the box ends before it begins along {}: {} > {}", "xyz"[axis], box.lo[axis], box.hi[axis]);
-  return {};
-}
-
-std::vector<Box> boxes_of_file(const std::string& path) {
-  const std::string text = value_or_fail(read_file(path));
-  std::vector<Box> boxes;
-  std::int64_t number = 0;
-  for (std::size_t first = 0; first < text.size();) {
-    const std::size_t end = std::min(text.find('\n', first), text.size());
-    std::string line = text.substr(first, end - first);
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    first = end + 1;
-    ++number;
-    if (line.empty() || line.front() == '#' || (boxes.empty() && line == kColumns)) continue;
-    Box box;
-    if (const std::string fault = read_box(line, box); !fault.empty())
-      fail({fault, path, number, 0, std::string("a line of boxes is ") + kColumns});
-    boxes.push_back(box);
-  }
-  if (boxes.empty()) fail({"there is no box", path, 0, 0, std::string("a line of boxes is ") + kColumns});
-  return boxes;
-}
 
 std::string table_of(const std::vector<BoxStructureResult>& results, const char* name,
                      const BoxKindResult BoxStructureResult::*kind) {
@@ -106,13 +55,18 @@ void run_compare_boxes(const CompareOptions& options) {
     fail_usage("--boxes compares all its structures by rays and points, and prints the result",
                "leave out --structures, --rays, --sweep, --select, --pixel and -o");
   const std::string& path = options.input.input;
-  const std::vector<Box> boxes = boxes_of_file(path);
+  const BoxFile file = read_box_file(path, options.universe);
+  const std::vector<workbench::Box>& boxes = file.boxes;
+  if (file.without_box > 0)
+    warn(fmt::format("{}: {} volume{} without a finite box {} left out", path, grouped(file.without_box),
+                     file.without_box == 1 ? "" : "s", file.without_box == 1 ? "is" : "are"));
   const auto results = value_or_fail(workbench::compare_box_structures(boxes, options.count));
   if (options.json) {
     nlohmann::ordered_json json;
     json["bihive_boxes"] = 1;
     json["version"] = version();
     json["name"] = path;
+    if (!file.universe.empty()) json["universe"] = file.universe;
     json["boxes"] = boxes.size();
     json["structures"] = nlohmann::ordered_json::array();
     for (const BoxStructureResult& one : results)
@@ -126,8 +80,9 @@ void run_compare_boxes(const CompareOptions& options) {
                                     {"points", json_of_kind(one.points)}});
     print(json.dump(2, ' ', true, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   } else {
-    std::string text = fmt::format("{}: {} box{}, 1 thread\n\n", escaped(path), grouped(std::ssize(boxes)),
-                                   boxes.size() == 1 ? "" : "es");
+    std::string text = fmt::format("{}{}: {} box{}, 1 thread\n\n", escaped(path),
+                                   file.universe.empty() ? "" : ", universe " + escaped(file.universe),
+                                   grouped(std::ssize(boxes)), boxes.size() == 1 ? "" : "es");
     text += fmt::format("{:<12}{:>12}{:>12}{:>8}{:>12}\n", "structure", "build", "bytes/box", "levels", "nodes");
     for (const BoxStructureResult& one : results)
       text += fmt::format("{:<12}{:>12}{:>12}{:>8}{:>12}\n", one.row.name, readable_ms(one.build_ms),

@@ -15,6 +15,7 @@
 #include "commands/share_picture.h"
 #include "support/communicator.h"
 #include "support/interrupt.h"
+#include "support/say_tuned.h"
 #include "support/thread_reserve.h"
 
 namespace bihive::cli {
@@ -37,8 +38,12 @@ void run_render(const RenderOptions& asked) {
   const RenderSettings& settings = prepared.settings;
 
   // Build, render, write.
-  const Tracer tracer =
-      value_or_fail(Tracer::build(scene, structure_of(prepared.engine), options.tree, settings.threads));
+  const TreeParameters tree = [&] {
+    if (!options.tune) return options.tree;
+    Progress progress("tuning");
+    return say_tuned(scene, prepared.engine, settings, [&](double done) { progress.update(done); });
+  }();
+  const Tracer tracer = value_or_fail(Tracer::build(scene, structure_of(prepared.engine), tree, settings.threads));
   if (communicator() == nullptr) renew_group_limit_for_threads(settings.threads);
   const Timer drawing;
   const std::unique_ptr<PictureFile> file = leads() ? open_picture({options, scene, tracer, settings, prepared.layers,

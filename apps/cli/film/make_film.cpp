@@ -21,6 +21,7 @@
 #include "commands/draw_picture.h"
 #include "film/picture_queue.h"
 #include "support/interrupt.h"
+#include "support/say_tuned.h"
 #include "support/thread_reserve.h"
 
 namespace bihive::cli {
@@ -164,8 +165,9 @@ class FilmSteps {
           fail({"the pictures of the film differ in size", "", 0, 0, "give one by " + setting_name("size")});
       tell_of_spheres_outside(*picture);
       check_memory_of(engine, picture->input, picture->options, picture->settings);
-      picture->tracer = value_or_fail(
-          Tracer::build(picture->input.scene, structure_of(engine), options_.tree, picture->settings.threads));
+      if (options_.tune && !tuned_) tuned_ = say_tuned(picture->input.scene, engine, picture->settings);
+      picture->tracer = value_or_fail(Tracer::build(picture->input.scene, structure_of(engine),
+                                                    tuned_.value_or(options_.tree), picture->settings.threads));
       times_.build_ms += timer.elapsed_ms();
       if (!built_.push(std::move(picture))) break;
     }
@@ -261,6 +263,7 @@ class FilmSteps {
   std::mutex mutex_;
   std::exception_ptr failure_;
   bool told_of_spheres_outside_ = false;  // the thread that builds
+  std::optional<TreeParameters> tuned_;   // the same: of the first frame
   FilmTimes times_;                       // each thread adds to its own
 };
 

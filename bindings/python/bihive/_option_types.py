@@ -100,6 +100,7 @@ class RenderOptions(ReadOptions, total=False):
     engine: Optional[Literal["auto", "wide", "reference", "brute", "wide-brute", "gpu", "gpu-brute"]]  # The engine (auto): those of the CPU give the same bits, a graphics processor nearly the same
     max_prims: Optional[Union[int, Literal["unlimited"]]]  # Maximum spheres per leaf (the engine's choice; reference: 8)
     max_depth: Optional[Union[int, Literal["unlimited"]]]  # Maximum levels of the tree (the engine's choice; reference: unlimited)
+    tune: Optional[bool]  # Search the tree's limits that suit these spheres, in about ten seconds, as bihive tune does; pictures keep their bits
     threads: Optional[int]  # Threads (0: as many as the machine runs at once)
     colour: Optional[Union[Colour, npt.ArrayLike]]  # Colour them: a name, #rrggbb or r,g,b from 0 to 1
     colour_by: Optional[Union[str, npt.ArrayLike, tuple[npt.ArrayLike, str]]]  # Colour them by an attribute or an expression of some; MIN,MAX also 2%,98%. MAP, or MAP_r reversed: viridis, magma, plasma, inferno, cividis, turbo, greys, coolwarm, RdBu, okabe-ito, colours such as blue-white-red, or a file of some

@@ -30,6 +30,7 @@
 #include "bihive/job/render_on_gpu.h"
 #include "bihive/job/report_text.h"
 #include "bihive/job/scene_request.h"
+#include "bihive/job/tuned_tree.h"
 #include "bihive/render/finished_pixels.h"
 #include "bihive/render/layers.h"
 #include "bihive/render/memory.h"
@@ -137,7 +138,8 @@ std::shared_ptr<Picture> make_picture(const SharedSpheres& spheres, PictureReque
   value_of(check_picture_memory(drawn.width(), drawn.height()));
 
   // Build and draw.
-  drawing->tracer = value_of(Tracer::build(scene, structure_of(engine), options.tree, settings.threads));
+  drawing->tracer = value_of(
+      Tracer::build(scene, structure_of(engine), tree_for(options, engine, scene, settings), settings.threads));
   Rendered rendered = draw(*drawing, engine, work);
   picture->pixels = finished_pixels(rendered.film, scene, settings, static_cast<int>(options.bits.value_or(8)));
 

@@ -365,6 +365,17 @@ void add_engine(Rows& rows) {
        .ranks = kChunks,
        .take = into(&PictureRequest::engine, choice(kRenderEngines))});
   for (const RequestOption<TreeParameters>& row : tree_options()) rows.push_back(of_part(row, &PictureRequest::tree));
+  rows.push_back({.id = "tune",
+                  .help =
+                      "Search the tree's limits that suit these spheres, in about ten seconds, as bihive tune does;\n"
+                      "pictures keep their bits",
+                  .theme = OptionTheme::engine,
+                  .in_window = false,
+                  .excludes = {"max_prims", "max_depth"},
+                  .take = [](PictureRequest& request, const std::string&) -> Status {
+                    request.tune = true;
+                    return Done{};
+                  }});
   rows.push_back({.id = "threads",
                   .value_name = "N",
                   .help = "Threads (0: as many as the machine runs at once)",

@@ -29,7 +29,8 @@ constexpr int kRecordVersion = 1, kRecordVersionOfFilms = 2;
 // Settings that change no pixel: all engines of the CPU and all their trees give the same bits.
 bool changes_nothing(const GivenSetting& setting, View view) {
   const bool shows_tree = view == View::traversal || view == View::tree;
-  return setting.id == "threads" || (setting.id == "engine" && !setting.value.starts_with("gpu")) ||
+  return setting.id == "threads" || setting.id == "tune" ||
+         (setting.id == "engine" && !setting.value.starts_with("gpu")) ||
          ((setting.id == "max_prims" || setting.id == "max_depth") && !shows_tree);
 }
 

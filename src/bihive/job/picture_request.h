@@ -71,6 +71,7 @@ struct PictureRequest {
   View view = View::shaded;
   RenderEngine engine = RenderEngine::automatic;
   TreeParameters tree;
+  bool tune = false;         ///< search `tree` (job/tuned_tree.h)
   std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
   StyleOptions style;
   LabelOptions labels;
