@@ -57,12 +57,25 @@ class Bonds(ProgramTest):
     def test_the_layers(self):
         self.succeed("render", "w.xyz", "-o", "a.exr", *SIZE, "--style", "licorice", "--layers", "depth,normal,id,attribute:element")
 
+    def test_transparent_ones_count_by_every_rule(self):
+        hashes = []
+        for rule in ("each_surface", "once", "first", "as_one"):
+            clear = ["--style", "ball-and-stick", "--opacity", "0.4", "--opacity-rule", rule]
+            of_engines = {self.picture(*clear, "--engine", engine)["picture_hash"] for engine in ("wide", "reference", "brute")}
+            self.assertEqual(len(of_engines), 1, rule)
+            hashes += of_engines
+        self.assertEqual(len(set(hashes)), 4)
+        # Beside opaque ones, and between both: a bond of two parts.
+        parts = ["--style", "ball-and-stick", "--select", "index 1", "--opacity", "0.4"]
+        self.assertEqual(len({self.picture(*parts, "--engine", engine)["picture_hash"] for engine in ("wide", "reference", "brute")}), 1)
+        self.assertIn("overlapping", self.fail_usage("render", "w.xyz", *SIZE, "-o", "a.png", "--opacity", "0.5", "--opacity-rule", "as_one",
+                                                     "--engine", "gpu"))
+
     def test_what_is_refused(self):
         def refused(*words):
             return self.fail_usage("render", *words, *SIZE, "-o", "a.png")
 
         self.assertIn("known elements", refused("points.csv", "--bonds", "distance"))
-        self.assertIn("transparent spheres", refused("w.xyz", "--bonds", "distance", "--opacity", "0.5"))
         self.assertIn("states no bonds", refused("w.xyz", "--bonds", "file"))
         self.assertIn("bonds by distance", refused("w.sdf", "--bonds", "file", "--bond-reach", "1.3"))
         self.assertIn("tree", refused("w.xyz", "--bonds", "distance", "--view", "traversal"))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/renderer.h"
@@ -16,6 +17,7 @@
 #include "support/clips.h"
 #include "support/effort.h"
 #include "support/scenes.h"
+#include "support/stick_oracle.h"
 
 namespace bihive {
 namespace {
@@ -400,6 +402,152 @@ TEST(Clips, CutSticksAgreeWithConstructiveSolidGeometry) {
   }
   EXPECT_GT(hits, 1000 / test::ray_share());
   EXPECT_GT(on_caps, 300 / test::ray_share());
+}
+
+// A body of a scene along a ray, in long double: the solid that clips leave of it.
+struct SolidBody {
+  std::int64_t id;
+  std::vector<Real> ends;
+  std::uint64_t bits;
+
+  bool holds(const Scene& scene, const Ray& ray, Real t) const {
+    if (!(t > ends[0] && t < ends[1])) return false;
+    for (std::size_t k = 0; k < scene.clips.size(); ++k)
+      if ((bits >> k & 1) != 0 && taken(scene.clips[k], at(ray, t))) return false;
+    return true;
+  }
+};
+
+// The bodies of one opacity that the line meets.
+std::vector<SolidBody> bodies_of(const Scene& scene, const Ray& ray, float opacity) {
+  const SphereAttributes& attributes = scene.spheres.attributes();
+  const auto bits_of = [&](std::int64_t sphere) {
+    return attributes.clips.empty() ? 0 : attributes.clips[static_cast<std::size_t>(sphere)];
+  };
+  std::vector<SolidBody> bodies;
+  const auto add = [&](std::int64_t id, std::vector<Real> ends, std::uint64_t bits) {
+    if (ends.size() == 2) bodies.push_back({id, std::move(ends), bits});
+  };
+  for (std::int64_t id = 0; id < scene.spheres.size(); ++id) {
+    if (attributes.opacity[static_cast<std::size_t>(id)] != opacity) continue;
+    std::vector<Real> ends;
+    add_roots(ray, scene.spheres.centre(id), scene.spheres.radius(id), ends);
+    add(id, ends, bits_of(id));
+  }
+  for (std::int64_t stick = 0; stick < scene.sticks.size(); ++stick) {
+    const std::int64_t one = scene.sticks.sphere_at(scene.spheres, 2 * stick);
+    const std::int64_t other = scene.sticks.sphere_at(scene.spheres, 2 * stick + 1);
+    if (attributes.opacity[static_cast<std::size_t>(one)] != opacity) continue;
+    const test::StickOracle oracle(ScaledRay(ray, scene.spheres.scale()), scene.sticks.stored(scene.spheres, stick));
+    if (oracle.roots().exist())
+      add(scene.spheres.size() + 2 * stick, {oracle.roots().t_near, oracle.roots().t_far},
+          bits_of(one) & bits_of(other));
+  }
+  return bodies;
+}
+
+// Where the line enters the union of the bodies from t = 0 on, or exits it if it starts inside: OpacityRule::as_one.
+// Nothing where rounding may decide.
+std::optional<std::vector<Real>> entries_of(const Scene& scene, const Ray& ray, const std::vector<SolidBody>& bodies) {
+  std::vector<Real> borders{0};
+  for (const SolidBody& body : bodies) {
+    std::vector<Real> ends = body.ends;
+    for (std::size_t k = 0; k < scene.clips.size(); ++k)
+      if ((body.bits >> k & 1) != 0) add_borders(ray, scene.clips[k], ends);
+    borders.insert(borders.end(), ends.begin(), ends.end());
+  }
+  std::sort(borders.begin(), borders.end());
+  borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  const auto is_solid = [&](Real t) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const SolidBody& body) { return body.holds(scene, ray, t); });
+  };
+  std::vector<Real> entries;
+  bool before = false, counts_exit = false;
+  for (std::size_t i = 0; i < borders.size(); ++i) {
+    if (borders[i] < 0) continue;
+    if (i + 1 < borders.size() && borders[i + 1] - borders[i] < 1e-7L) return std::nullopt;
+    const bool after = i + 1 < borders.size() && is_solid((borders[i] + borders[i + 1]) / 2);
+    if (borders[i] == 0)
+      counts_exit = after;
+    else if (after && !before)
+      entries.push_back(borders[i]);
+    else if (before && !after && counts_exit) {
+      entries.push_back(borders[i]);
+      counts_exit = false;
+    }
+    before = after;
+  }
+  return entries;
+}
+
+TEST(Clips, OverlappingBodiesAreOneSolid) {
+  std::int64_t several = 0, from_inside = 0, left_out = 0, asked = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    SplitMix64 rng(600 + seed);
+    Scene scene = scene_of(test::random_world("random", seed, 50, 6, 0.5, 2));
+    if (seed % 2 == 0) test::add_random_clips(seed, 6, scene);
+    for (int i = 0; i < 50; ++i) scene.spheres.attributes().opacity.push_back(i % 2 == 0 ? 0.25F : 0.5F);
+    std::vector<SpherePair> pairs;
+    for (std::int32_t i = 0; i + 2 < 50; ++i) pairs.push_back({i, i + 2});
+    scene.sticks = StickSet::between(scene.spheres, pairs, 0.25).value();
+    ASSERT_TRUE(scene.sticks.add(scene.spheres, {{{0, 0, 0}, {3, 1, 2}, 1, 0, 0}, {{0, 1, 0}, {-3, 1, 2}, 0.5, 1, 1}}));
+    const auto divided = Transparency::of(scene, OpacityRule::as_one, Engine::wide, 1).value().to_eye;
+    const auto brute = Transparency::of(scene, OpacityRule::as_one, Engine::brute, 1).value().to_eye;
+    const std::int64_t rays = 2000 / test::ray_share();
+    for (std::int64_t i = 0; i < rays; ++i) {
+      const Ray ray = random_ray(rng, i % 2 == 0 ? 5 : 12, {});
+      if (!is_valid(ray)) continue;
+      std::vector<Crossing> found, by_brute;
+      divided->find_crossings(ray, found);
+      brute->find_crossings(ray, by_brute);
+      ASSERT_EQ(found.size(), by_brute.size());
+      double share = 1;
+      for (const float opacity : {0.25F, 0.5F}) {
+        const std::vector<SolidBody> bodies = bodies_of(scene, ray, opacity);
+        const std::optional<std::vector<Real>> expected = entries_of(scene, ray, bodies);
+        ++asked;
+        std::size_t next = 0;
+        for (const Crossing& crossing : found) {
+          const std::int64_t sphere = shown_sphere(scene, crossing.id);
+          if (scene.spheres.attributes().opacity[static_cast<std::size_t>(sphere)] != opacity) continue;
+          if (opacity == 0.25F) share = share * (1 - double(opacity));
+          if (expected) {
+            ASSERT_LT(next, expected->size()) << seed << ", ray " << i;
+            ASSERT_NEAR(crossing.t, double((*expected)[next]), 1e-9 * (1 + crossing.t)) << seed << ", ray " << i;
+            // The body whose border it is, by its ends or by its clips.
+            const std::int64_t half = crossing.id - scene.spheres.size();
+            const std::int64_t id = half < 0 ? crossing.id : crossing.id - half % 2;
+            const auto body =
+                std::find_if(bodies.begin(), bodies.end(), [&](const SolidBody& b) { return b.id == id; });
+            ASSERT_NE(body, bodies.end());
+            const Real e = 1e-8L * (1 + crossing.t);
+            ASSERT_NE(body->holds(scene, ray, crossing.t - e), body->holds(scene, ray, crossing.t + e));
+          }
+          ++next;
+        }
+        if (!expected) {
+          ++left_out;
+          continue;
+        }
+        ASSERT_EQ(next, expected->size()) << seed << ", ray " << i;
+        several += expected->size() > 1 ? 1 : 0;
+        from_inside += std::any_of(bodies.begin(), bodies.end(),
+                                   [&](const SolidBody& body) { return body.holds(scene, ray, 1e-12L); })
+                           ? 1
+                           : 0;
+      }
+      for (const Crossing& crossing : found)
+        if (shown_sphere(scene, crossing.id) % 2 == 1) share = share * 0.5;
+      ASSERT_EQ(divided->share(ray), (Vec3d{share, share, share})) << seed << ", ray " << i;
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        ASSERT_EQ(found[k].t, by_brute[k].t);
+        ASSERT_EQ(found[k].id, by_brute[k].id);
+      }
+    }
+  }
+  EXPECT_GT(several, 500 / test::ray_share());
+  EXPECT_GT(from_inside, 500 / test::ray_share());
+  EXPECT_LT(left_out, asked / 20);
 }
 
 TEST(Clips, EveryEngineGivesTheSameBitsOfSticks) {

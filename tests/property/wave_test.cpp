@@ -101,34 +101,42 @@ TEST(Wave, pictures_are_those_of_one_ray_after_the_other) {
 }
 
 // Between the first spheres of the scene, in a chain; as thick as the first sphere, or thinner. Then arrows on them, of
-// which every other one has a colour of its own.
-StickSet chain_of(SphereSet& spheres, std::uint64_t seed) {
-  std::vector<SpherePair> pairs;
-  for (std::int32_t i = 0; i + 1 < std::min<std::int64_t>(spheres.size(), 12); ++i) pairs.push_back({i, i + 1});
+// which some have a colour or an opacity of their own.
+StickSet chain_of(Scene& scene, std::uint64_t seed) {
+  SphereSet& spheres = scene.spheres;
+  std::vector<ImagePair> pairs;
+  for (std::int32_t i = 0; i + 1 < std::min<std::int64_t>(spheres.size(), 12); ++i) pairs.push_back({{i, i + 1}, {}});
   const double radius = spheres.radius(0) * (seed % 3 == 0 ? 1 : 0.3);
-  StickSet made = StickSet::between(spheres, pairs, radius).value();
+  const auto is_parted = [&](const SpherePair& pair) { return !are_equally_clear(scene, pair[0], pair[1]); };
+  StickSet made = StickSet::between(spheres, pairs, radius, is_parted).value();
   std::vector<OwnStick> arrows;
-  for (const auto& [one, other] : pairs) {
+  for (const ImagePair& pair : pairs) {
+    const auto [one, other] = pair.pair;
     const Vec3d from = spheres.local_centre(one);
     OwnStick arrow{from, 2.0 * from - spheres.local_centre(other), 2 * radius, 0, one};
     if (one % 2 == 0) arrow.colour = Vec3f{0.25F, 0.5F, 0.125F * static_cast<float>(one % 8)};
+    if (seed % 2 == 1 && one % 3 == 0) arrow.opacity = 0.3F;
     arrows.push_back(arrow);
   }
   EXPECT_TRUE(made.add(spheres, arrows));
   return made;
 }
 
+// Half of the scenes let light through, by all rules.
 TEST(Wave, sticks_are_those_of_one_ray_after_the_other) {
   const BestTargetAgain restore;
-  std::int64_t on_sticks = 0;
-  for (std::uint64_t seed = 401; seed <= 424; seed += step()) {
+  std::int64_t on_sticks = 0, on_clear_sticks = 0;
+  for (std::uint64_t seed = 401; seed <= 448; seed += step()) {
     Scene scene = test::random_scene(seed);
     if (scene.spheres.size() < 3 || !(scene.spheres.radius(0) > 0)) continue;
-    for (Material& material : scene.materials) material.transmissive = 0;
-    scene.spheres.attributes().opacity.clear();
-    scene.clips.clear();
-    scene.sticks = chain_of(scene.spheres, seed);
+    if (seed % 2 == 0) {
+      for (Material& material : scene.materials) material.transmissive = 0;
+      scene.spheres.attributes().opacity.clear();
+      scene.clips.clear();
+    }
+    scene.sticks = chain_of(scene, seed);
     RenderSettings settings = test::random_settings(seed);
+    if (seed % 6 == 1) settings.opacity_rule = OpacityRule::as_one;
     const Expected expected = one_after_the_other(scene, settings);
     for (const Engine engine : {Engine::wide, Engine::reference, Engine::brute}) {
       const Tracer tracer = Tracer::build(scene, engine).value();
@@ -141,18 +149,23 @@ TEST(Wave, sticks_are_those_of_one_ray_after_the_other) {
       }
       const PixelRays pixels(scene.camera, settings.width_px, settings.height_px);
       for (int y = 0; y < settings.height_px; ++y)
-        for (int x = 0; x < settings.width_px; ++x)
-          on_sticks += tracer.closest_hit(pixels.at(x + 0.5, y + 0.5)).sphere_id >= scene.spheres.size() ? 1 : 0;
+        for (int x = 0; x < settings.width_px; ++x) {
+          const std::int64_t id = tracer.closest_hit(pixels.at(x + 0.5, y + 0.5)).sphere_id;
+          if (id < scene.spheres.size()) continue;
+          ++on_sticks;
+          on_clear_sticks += shown_material(scene, id).transmissive > 0 ? 1 : 0;
+        }
     }
   }
   EXPECT_GT(on_sticks, static_cast<std::int64_t>(1000 / step()));  // fewer scenes, fewer hits
+  EXPECT_GT(on_clear_sticks, static_cast<std::int64_t>(100 / step()));
 }
 
 TEST(Wave, sticks_are_refused_where_they_would_be_wrong) {
   Scene scene = test::random_scene(3);
   for (Material& material : scene.materials) material.transmissive = 0;
   scene.spheres.attributes().opacity.clear();
-  scene.sticks = chain_of(scene.spheres, 3);
+  scene.sticks = chain_of(scene, 3);
   const RenderSettings settings = test::random_settings(3);
   const Tracer tracer = Tracer::build(scene, Engine::reference).value();
   EXPECT_FALSE(render(scene, Tracer::build(scene.spheres, Engine::reference).value(), settings));
@@ -160,7 +173,8 @@ TEST(Wave, sticks_are_refused_where_they_would_be_wrong) {
   of_tree.view = View::traversal;
   of_tree.transparent = false;
   EXPECT_FALSE(render(scene, tracer, of_tree));
-  scene.materials.front().transmissive = 0.5;
+  scene.spheres.attributes().opacity.assign(static_cast<std::size_t>(scene.spheres.size()), 1);
+  scene.spheres.attributes().opacity[1] = 0.5F;
   EXPECT_FALSE(Tracer::build(scene, Engine::wide));
   EXPECT_FALSE(render(scene, tracer, settings));
 }

@@ -280,9 +280,16 @@ TEST(Bonds, become_sticks_of_the_scene) {
   sticks.ball_scale = 0;
   ASSERT_TRUE(scale_balls(scene, sticks));
   EXPECT_EQ(scene.spheres.radius(2), 0.25);
-  // Transparent spheres would show their inside.
-  scene.spheres.attributes().opacity = {1, 1, 0.5f};
-  EXPECT_FALSE(find_bonds(scene, sticks));
+  // Between atoms of different opacity there are two stubs.
+  scene.spheres.attributes().opacity = {1, 0.5f, 1};
+  ASSERT_TRUE(find_bonds(scene, sticks));
+  ASSERT_EQ(scene.sticks.size(), 2);
+  for (const std::int64_t id : {3, 4}) EXPECT_EQ(shown_sphere(scene, id), 0);
+  for (const std::int64_t id : {5, 6}) EXPECT_EQ(shown_sphere(scene, id), 1);
+  EXPECT_EQ(scene.sticks.stored(scene.spheres, 0).b, scene.sticks.stored(scene.spheres, 1).b);
+  scene.spheres.attributes().opacity = {0.5f, 0.5f, 1};
+  ASSERT_TRUE(find_bonds(scene, sticks));
+  EXPECT_EQ(scene.sticks.size(), 1);
 }
 
 TEST(Bonds, a_stick_has_ends_and_a_radius) {

@@ -125,6 +125,94 @@ TEST(Transparency, light_is_weakened_by_the_first_surface_alone_and_not_tinted) 
   EXPECT_LT(of_glass.x, 0.3);
 }
 
+TEST(Transparency, overlapping_spheres_count_as_one) {
+  // Two that overlap, one inside of them, and one apart; then one of another opacity, and an opaque one.
+  Scene scene = scene_of_layers({{{0, 0, 0}, 1, 0.25F, {1, 0, 0}},
+                                 {{0, 0, -1.5}, 1, 0.25F, {0, 1, 0}},
+                                 {{0, 0, -0.75}, 0.5, 0.25F, {0, 1, 0}},
+                                 {{0, 0, -5}, 1, 0.25F, {0, 0, 1}},
+                                 {{0, 0, -4.5}, 1, 0.5F, {0, 0, 1}},
+                                 {{0, 0, -20}, 1, 1, {0, 1, 0}}});
+  scene.picture.opacity_rule = OpacityRule::as_one;
+  EXPECT_EQ(light_along(scene, {0, 0, 10}, kAhead), (Vec3d{0.25, 0.75 * 0.75 * 0.5, 0.75 * 0.5 + 0.75 * 0.5 * 0.25}));
+  // What starts inside exits the last of them.
+  EXPECT_EQ(light_along(scene, {0, 0, -0.75F}, kAhead),
+            (Vec3d{0, 0.25 + 0.75 * 0.75 * 0.5, 0.75 * 0.5 + 0.75 * 0.5 * 0.25}));
+  // Nothing of the union is crossed by a ray that ends in it.
+  Ray ray;
+  ray.origin = {0, 0, -0.75F};
+  ray.direction = kAhead;
+  ray.t_max = 1.7;
+  EXPECT_EQ(parts_of(scene).to_light->share(ray).x, 1);
+  ray.t_max = 1.75;
+  EXPECT_EQ(parts_of(scene).to_light->share(ray).x, 0.75);
+  // Spheres that touch are one, also where one ends as the other begins.
+  scene.spheres = SphereSet::from_world(std::vector<double>{0, 0}, {0, 0}, {0, -2}, {1, 1}).value();
+  scene.spheres.attributes().opacity = {0.25F, 0.25F};
+  ray.origin = {0, 0, 10};
+  ray.t_max = 100;
+  EXPECT_EQ(parts_of(scene).to_light->share(ray).x, 0.75);
+}
+
+// A dumb-bell along z, and a stick beside it; their opacity is that of their spheres.
+TEST(Transparency, sticks_are_as_clear_as_their_spheres) {
+  Scene scene = scene_of_layers(
+      {{{0, 0, 0}, 1, 0.25F, {1, 0, 0}}, {{0, 0, -10}, 1, 0.25F, {0, 0, 1}}, {{5, 0, 0}, 1, 1, {0, 1, 0}}});
+  scene.sticks = StickSet::between(scene.spheres, std::vector<SpherePair>{{0, 1}}, 0.5).value();
+  ASSERT_TRUE(scene.sticks.add(scene.spheres, {{{5, 0, -3}, {5, 0, -6}, 0.25, 0, 2}}));
+  const auto share_at = [&](Vec3f origin, Vec3f direction, OpacityRule rule) {
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    return Transparency::of(scene, rule, Engine::wide, 1)->to_eye->share(ray).x;
+  };
+  for (const OpacityRule rule : {OpacityRule::once, OpacityRule::first, OpacityRule::as_one}) {
+    // Across both, across the stick alone, the opaque point of an arrow alone, and past both.
+    EXPECT_EQ(share_at({-9, 0, -5}, {1, 0, 0}, rule), 0);
+    EXPECT_NEAR(share_at({0, -9, -5}, {0, 1, 0}, rule), 0.75, kStep);
+    EXPECT_EQ(share_at({5, -9, -4}, {0, 1, 0}, rule), 0);
+    EXPECT_EQ(share_at({2, -9, -4}, {0, 1, 0}, rule), 1);
+  }
+  // Along it: two spheres and a stick, of which the blue sphere tints red light too; or one body.
+  EXPECT_NEAR(share_at({0, 0, 9}, kAhead, OpacityRule::once), std::pow(0.75, 4), kStep);
+  EXPECT_EQ(share_at({0, 0, 9}, kAhead, OpacityRule::first), 0.75);
+  EXPECT_EQ(share_at({0, 0, 9}, kAhead, OpacityRule::as_one), 0.75);
+  // Through both spheres, whose stick lies beside the ray.
+  EXPECT_EQ(share_at({0.75F, 0, 9}, kAhead, OpacityRule::as_one), 0.75 * 0.75);
+  EXPECT_EQ(share_at({0.75F, 0, 9}, kAhead, OpacityRule::first), 0.75);
+
+  // Halves of their own colour tint the light.
+  Ray ray;
+  ray.origin = {0, -9, -3};
+  ray.direction = {0, 1, 0};
+  const auto parts = Transparency::of(scene, OpacityRule::once, Engine::wide, 1).value();
+  EXPECT_NEAR(parts.to_light->share(ray).x, 0.75, kStep);
+  EXPECT_NEAR(parts.to_light->share(ray).z, 0.75 * 0.75, kStep);
+  ray.origin = {0, -9, -7};
+  EXPECT_NEAR(parts.to_light->share(ray).x, 0.75 * 0.75, kStep);
+  EXPECT_NEAR(parts.to_light->share(ray).z, 0.75, kStep);
+}
+
+TEST(Transparency, a_stick_between_spheres_of_two_opacities_has_two_parts) {
+  Scene scene = scene_of_layers({{{0, 0, 0}, 1, 0.25F}, {{0, 0, -10}, 1, 1}, {{0, 0, -20}, 1, 1}});
+  scene.sticks = StickSet::between(scene.spheres, std::vector<SpherePair>{{1, 2}}, 0.5).value();
+  EXPECT_TRUE(check_sticks(scene));
+  scene.sticks = StickSet::between(scene.spheres, std::vector<SpherePair>{{0, 1}}, 0.5).value();
+  EXPECT_FALSE(check_sticks(scene));
+  EXPECT_FALSE(Tracer::build(scene, Engine::wide));
+  const auto is_parted = [&](const SpherePair& pair) { return !are_equally_clear(scene, pair[0], pair[1]); };
+  scene.sticks = StickSet::between(scene.spheres, {{{0, 1}, {}}, {{1, 2}, {}}}, 0.5, is_parted).value();
+  ASSERT_TRUE(check_sticks(scene));
+  ASSERT_EQ(scene.sticks.size(), 3);
+  const Transparency parts = parts_of(scene);
+  for (const auto& [z, share] : {std::pair(-3.0F, 0.75), std::pair(-7.0F, 0.0), std::pair(-15.0F, 0.0)}) {
+    Ray ray;
+    ray.origin = {0, -9, z};
+    ray.direction = {0, 1, 0};
+    EXPECT_NEAR(parts.to_eye->share(ray).x, share, kStep) << z;
+  }
+}
+
 TEST(Transparency, faint_rays_are_not_followed) {
   // A mirror before the eye shows the white background, and nothing else is seen.
   for (const double reflective : {kFaintestRay, std::nextafter(kFaintestRay, 0.0)}) {
@@ -377,8 +465,9 @@ TEST(Transparency, crossings_are_those_of_all_spheres) {
       for (const double share : passing)
         classes.push_back(static_cast<std::int8_t>(random.next() % 4 == 0 ? -1 : opacity_class(share)));
     const SphereSet spheres = SphereSet::from_world(x, y, z, r).value();
-    const auto divided =
-        TransparentSpheres::divide(spheres, passing, Engine::wide, 1, nullptr, {}, nullptr, -1, classes).value();
+    TransparentSpheres::Properties more;
+    more.classes = classes;
+    const auto divided = TransparentSpheres::divide(spheres, passing, Engine::wide, 1, more).value();
     for (int k = 0; k < 200; ++k) {
       Ray ray;
       ray.origin = to_float(unit * Vec3d{5 * random.next_double(), 2, 5 * random.next_double()});

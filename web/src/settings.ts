@@ -8,7 +8,7 @@ export interface PictureSettings {
   ao: boolean;
   ao_distance: number | null;
   ao_directions: number;
-  opacity_rule: 'each_surface' | 'once' | 'first';
+  opacity_rule: 'each_surface' | 'once' | 'first' | 'as_one';
   light_points: number;
   outline_px: number;
   outline_step: number;

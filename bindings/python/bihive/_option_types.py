@@ -60,7 +60,7 @@ class RenderOptions(ReadOptions, total=False):
     ao: Optional[bool]  # Ambient occlusion: surfaces that see little of their surroundings are darker
     ao_distance: Optional[float]  # Reach of ambient occlusion in world units (no limit); implies --ao
     ao_directions: Optional[int]  # Directions of ambient occlusion per sample (64); implies --ao
-    opacity_rule: Optional[Literal["each_surface", "once", "first"]]  # Whether a transparent sphere weakens light at each surface, once, or if it is the first of its opacity along a ray (the style's)
+    opacity_rule: Optional[Literal["each_surface", "once", "first", "as_one"]]  # Whether a transparent sphere weakens light at each surface, once, if it is the first of its opacity along a ray, or as one body with those of its opacity that overlap it (the style's)
     light_points: Optional[int]  # Shadow rays per area light and sample (the style's)
     fog: Optional[float]  # Share of the background at the set's farthest point; 0: none (the style's)
     fog_start: Optional[float]  # Depth where fog begins: 0 at the set's nearest point, 1 at its farthest (0); implies --fog

@@ -61,6 +61,18 @@ struct TakenParts {
       if (place.clip < 0) return {};
     }
   }
+
+  // All of them.
+  void find_parts(double start, double end, std::vector<RemainingPart>& found) const {
+    for (CutHit place{start, -1, 0};;) {
+      leave(place);
+      if (!(place.t <= end) || (place.t == end && place.clip >= 0)) return;
+      const double in = place.t;
+      place = next_end(in, {end, -1, 0});
+      found.push_back({in, place.t});
+      if (place.clip < 0) return;
+    }
+  }
 };
 
 double squared(Vec3d v) {
@@ -226,6 +238,26 @@ CutStickHit CutSet::stick_hit(const CutRay& cut_ray, const StickRay& of, std::in
   else
     found.s = found.hit.t == roots.t_near ? roots.s_near : roots.s_far;
   return found;
+}
+
+void CutSet::find_remaining(const Ray& ray, std::int64_t id, std::vector<RemainingPart>& found) const {
+  if (is_of_stick(id)) {
+    const std::int64_t stick = (id - spheres_->size()) / 2;
+    const CutRay entered = entering(ray, cutting_sticks_);
+    const StickPassage passage = stick_passage(stick_ray_of(ray, entered), sticks_->stored(*spheres_, stick));
+    const TakenParts taken{entered, of_sticks_[static_cast<std::size_t>(stick)].cutting};
+    if (!std::isnan(passage.roots.t_near))
+      taken.find_parts(passage.enters ? passage.roots.t_near : -kEndOfLine, passage.roots.t_far, found);
+    return;
+  }
+  const CutRay entered = entering(ray, cutting(id));
+  const Vec3d centre = spheres_->stored_centre(id);
+  const double radius = spheres_->stored_radius(id);
+  const bool own = entered.ray.leaves(centre, radius);
+  if (own && !ray.inside) return;
+  const SphereRoots roots = sphere_roots(entered.ray, centre, radius);
+  if (!std::isnan(roots.t_near))
+    TakenParts{entered, cutting(id)}.find_parts(own ? -kEndOfLine : roots.t_near, roots.t_far, found);
 }
 
 bool CutSet::cap_normal(const Ray& ray, std::int64_t id, Vec3d& normal) const {

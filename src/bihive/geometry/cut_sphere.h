@@ -28,6 +28,11 @@ struct CutStickHit {
   double s = 0;
 };
 
+/// An interval of a line that clips leave of a body.
+struct RemainingPart {
+  double in, out;
+};
+
 /// The spheres of a set, and the sticks between them, with the clips that act on them: on a stick those that act on
 /// both of its spheres. Const; any number of threads may ask.
 class CutSet {
@@ -85,6 +90,11 @@ class CutSet {
   StickRay stick_ray_of(const Ray& ray, const CutRay& entered) const {
     return entered.leaves_clip ? StickRay{entered.ray} : stick_ray(ray, *spheres_, *sticks_);
   }
+
+  /// Appends all intervals of the line of a valid ray that are left of a cut sphere, or of the stick of which this is
+  /// half, in their order: also those outside of the segment. The first begins at -inf where the ray starts on the
+  /// body's surface and goes inside; there is none where it exits it outward.
+  void find_remaining(const Ray& ray, std::int64_t id, std::vector<RemainingPart>& found) const;
 
   /// The outward normal, of length 1, at the cap where the ray hits the sphere or the half of a stick. False: it hits
   /// the body's own surface, or the body is not cut.

@@ -35,28 +35,32 @@ Result<StickSet> StickSet::between(const SphereSet& spheres, std::vector<SphereP
   return made;
 }
 
-Result<StickSet> StickSet::between(SphereSet& spheres, const std::vector<ImagePair>& pairs, double radius) {
+Result<StickSet> StickSet::between(SphereSet& spheres, const std::vector<ImagePair>& pairs, double radius,
+                                   const std::function<bool(const SpherePair&)>& is_parted) {
   StickSet made;
   if (pairs.empty()) return made;
-  std::vector<const ImagePair*> with_image;
+  std::vector<const ImagePair*> with_stubs;
   for (const ImagePair& one : pairs) {
     if (Status status = check_ends(spheres, one.pair); !status) return status.error();
-    if (one.is_image())
-      with_image.push_back(&one);
+    if (one.is_image() && !spheres.cell()) return Error{"sticks to images need a periodic cell", "", 0, 0, ""};
+    if (one.is_image() || (is_parted && is_parted(one.pair)))
+      with_stubs.push_back(&one);
     else
       made.pairs_.push_back(one.pair);
   }
-  if (!with_image.empty() && !spheres.cell()) return Error{"sticks to images need a periodic cell", "", 0, 0, ""};
-  if (with_image.size() > std::numeric_limits<std::int32_t>::max() / 2)
-    return Error{"there are more than 2^30 sticks to images", "", 0, 0, ""};
+  if (with_stubs.size() > std::numeric_limits<std::int32_t>::max() / 2)
+    return Error{"there are more than 2^30 sticks in two parts", "", 0, 0, ""};
 
   // Stubs end half the way to the image of the other sphere: local positions.
   std::vector<Vec3d> ends;
   const Images::Shifts of_copies = spheres.images().shifts();
   double extent = 0;
-  for (const ImagePair* const one : with_image) {
-    const auto& [a, b, c] = spheres.cell()->vectors;
-    const Vec3d shift = double(one->image[0]) * a + double(one->image[1]) * b + double(one->image[2]) * c;
+  for (const ImagePair* const one : with_stubs) {
+    Vec3d shift;
+    if (one->is_image()) {
+      const auto& [a, b, c] = spheres.cell()->vectors;
+      shift = double(one->image[0]) * a + double(one->image[1]) * b + double(one->image[2]) * c;
+    }
     const Vec3d from = spheres.local_centre(one->pair[0]), to = spheres.local_centre(one->pair[1]);
     const Vec3d half = 0.5 * (to + shift - from);
     for (const Vec3d& end : {from + half, to - half}) {
@@ -70,7 +74,7 @@ Result<StickSet> StickSet::between(SphereSet& spheres, const std::vector<ImagePa
   spheres.make_room(extent);
   if (Status status = made.set_radius(spheres, radius); !status) return status.error();
   for (std::size_t k = 0; k < ends.size(); ++k) {
-    made.pairs_.push_back({with_image[k / 2]->pair[k % 2], -1 - static_cast<std::int32_t>(k)});
+    made.pairs_.push_back({with_stubs[k / 2]->pair[k % 2], -1 - static_cast<std::int32_t>(k)});
     made.free_ends_.push_back(to_float(spheres.scale() * ends[k]));
   }
   return made;
@@ -87,6 +91,8 @@ Status StickSet::add(SphereSet& spheres, const std::vector<OwnStick>& sticks) {
   for (const OwnStick& one : sticks) {
     if (one.sphere < 0 || one.sphere >= spheres.size())
       return Error{"a stick belongs to sphere " + std::to_string(one.sphere) + ", which there is not", "", 0, 0, ""};
+    if (!(one.opacity >= 0 && one.opacity <= 1))
+      return Error{"the opacity of a stick must lie from 0 to 1", "", 0, 0, ""};
     for (const auto& [end, radius] : {std::pair(one.a, one.radius_a), std::pair(one.b, one.radius_b)}) {
       if (!(radius >= 0)) return Error{"the radius of a stick must be at least 0", "", 0, 0, ""};
       for (int axis = 0; axis < 3; ++axis) {
@@ -108,10 +114,13 @@ Status StickSet::add(SphereSet& spheres, const std::vector<OwnStick>& sticks) {
   for (const OwnStick& one : sticks) {
     const auto stored = [&](double number) { return static_cast<float>(spheres.scale() * number); };
     added.push_back({to_float(spheres.scale() * one.a), to_float(spheres.scale() * one.b), stored(one.radius_a),
-                     stored(one.radius_b), one.sphere, one.colour.value_or(kColourOfSphere)});
+                     stored(one.radius_b), one.sphere, one.colour.value_or(kColourOfSphere), one.opacity});
     if (!(added.back().radius_a > 0 || added.back().radius_b > 0))
       return Error{"a stick must have a radius above 0, and not vanish beside the extent of the spheres", "", 0, 0, ""};
+  }
+  for (const OwnStick& one : sticks) {
     has_colours_ = has_colours_ || one.colour.has_value();
+    has_opacities_ = has_opacities_ || one.opacity < 1;
   }
   own_.insert(own_.end(), added.begin(), added.end());
   return Done{};

@@ -3,8 +3,10 @@
 // A pair of which one sphere is an image along the periodic cell has two stubs instead of a stick: from either sphere
 // half the way to the image of the other one. So nothing crosses the cell, and copies of the cell join their stubs.
 //
+// So has a pair of spheres of different opacity, because a stick has one opacity: its stubs meet in the middle.
+//
 // A set may also have sticks with ends and radii of their own, such as arrows. Each belongs to a sphere, whose
-// appearance it has, but for a colour of its own.
+// appearance it has, but for a colour and an opacity of its own.
 //
 // Sticks have ids too, after those of all spheres: each half of a stick has one, because it looks like the sphere at
 // its end. With N = SphereSet::total_size(), the halves of stick k are N + 2 k, at its first end, and N + 2 k + 1. Both
@@ -16,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,9 +47,10 @@ struct OwnStick {
   double radius_a = 0, radius_b = 0;
   std::int32_t sphere = 0;           ///< to which it belongs
   std::optional<Vec3f> colour = {};  ///< linear RGB; unset: that of the sphere
+  float opacity = 1;                 ///< 0 to 1: multiplies that of the sphere
 };
 
-/// 8 bytes for each stick, 20 for a stub, 48 for one with ends of its own. The spheres are not kept: queries get them.
+/// 8 bytes for each stick, 20 for a stub, 52 for one with ends of its own. The spheres are not kept: queries get them.
 class StickSet {
  public:
   StickSet() = default;
@@ -54,13 +58,15 @@ class StickSet {
   /// A stick of this radius (world units) between the centres of each pair. Error: a radius that is not above 0, or
   /// larger than the set's extent; an id of no stored sphere.
   static Result<StickSet> between(const SphereSet& spheres, std::vector<SpherePair> pairs, double radius);
-  /// The same with two stubs for each pair with an image, after all sticks. Makes room in the stored units of the
-  /// spheres where stubs end far outside. More errors: a pair with an image where there is no cell.
-  static Result<StickSet> between(SphereSet& spheres, const std::vector<ImagePair>& pairs, double radius);
+  /// The same with two stubs for each pair with an image, after all sticks, and for each pair that `is_parted` names:
+  /// in these, stubs meet in the middle. Makes room in the stored units of the spheres where stubs end far outside.
+  /// More errors: a pair with an image where there is no cell.
+  static Result<StickSet> between(SphereSet& spheres, const std::vector<ImagePair>& pairs, double radius,
+                                  const std::function<bool(const SpherePair&)>& is_parted = nullptr);
 
   /// Appends sticks with ends of their own, after all others. Makes room in the stored units of the spheres where they
   /// reach farther. Error: a number that is not finite or beyond binary32, a negative radius, two radii that are 0 in
-  /// binary32, an id of no stored sphere. Then no stick is added.
+  /// binary32, an id of no stored sphere, an opacity out of range. Then no stick is added.
   Status add(SphereSet& spheres, const std::vector<OwnStick>& sticks);
 
   std::int64_t size() const { return static_cast<std::int64_t>(pairs_.size() + own_.size()); }
@@ -95,6 +101,13 @@ class StickSet {
   const Vec3f* colour_at(std::int64_t half) const {
     const Own* const own = own_at(half / 2 % size());
     return own == nullptr || own->colour.x < 0 ? nullptr : &own->colour;
+  }
+  /// Whether some stick has an opacity of its own, below 1.
+  bool has_opacities() const { return has_opacities_; }
+  /// The factor that a half has for the opacity of its sphere.
+  double opacity_at(std::int64_t half) const {
+    const Own* const own = own_at(half / 2 % size());
+    return own == nullptr ? 1 : double(own->opacity);
   }
   /// In stored units. The ends of a copy are rounded to binary32, as the centres of its spheres are.
   Stick stored(const SphereSet& spheres, std::int64_t stick) const {
@@ -142,10 +155,11 @@ class StickSet {
     float radius_a, radius_b;
     std::int32_t sphere;
     Vec3f colour;
+    float opacity;
 
     friend bool operator==(const Own& one, const Own& other) {
       return one.a == other.a && one.b == other.b && one.radius_a == other.radius_a && one.radius_b == other.radius_b &&
-             one.sphere == other.sphere && one.colour == other.colour;
+             one.sphere == other.sphere && one.colour == other.colour && one.opacity == other.opacity;
     }
   };
 
@@ -176,7 +190,7 @@ class StickSet {
   std::vector<SpherePair> pairs_;  // the second of a stub is -1 - k for free end k
   std::vector<Vec3f> free_ends_;
   std::vector<Own> own_;
-  bool has_colours_ = false;
+  bool has_colours_ = false, has_opacities_ = false;
   float radius_ = 0;  // stored units
 };
 

@@ -126,6 +126,9 @@ class GlRenderer::Implementation {
                    "choose an engine with a tree"};
     if (settings.adaptive_samples && settings.view == View::shaded)
       return Error{"the graphics processor draws no adaptive samples", "", 0, 0, "choose a number of samples"};
+    if (settings.opacity_rule == OpacityRule::as_one && scene_.lets_light_through())
+      return Error{"the graphics processor draws no overlapping spheres as one", "", 0, 0,
+                   "choose an engine of the CPU, or another rule"};
     if (settings.cell_lines && settings.view == View::shaded)
       return Error{"the graphics processor draws no edges of a cell", "", 0, 0, "choose an engine of the CPU"};
     if (settings.transparent && settings.view == View::traversal)

@@ -177,6 +177,8 @@ Traces choose_traces(const PictureRequest& request, const Scene& scene, const Wh
   return traces;
 }
 
+  if (settings.opacity_rule == OpacityRule::as_one && lets_light_through(scene))
+    refuse("overlapping spheres as one", "with " + setting_name("opacity_rule") + " first");
 void draw_traces(const Traces& traces, Scene& scene) {
   const Result<AddedTraces> added = add_traces(scene, traces);
   if (!added) fail_usage(added.error().message, added.error().hint);
@@ -265,6 +267,9 @@ void draw_links(const Links& links, bool is_of_film, Scene& scene) {
   if (!added) fail_usage(added.error().message, added.error().hint);
   if (is_of_film) return check_fixed_range("link_colour", links.colour, scene);
   if (added->count == 0)
+  if (whole != nullptr && settings.opacity_rule == OpacityRule::as_one)
+    fail_setting("opacity_rule", " as_one needs all spheres in one place, and they are distributed over ranks",
+                 "add " + setting_name("opacity_rule") + " first");
     warn("there is no link: " + std::string(table.pairs.empty()  ? "the table has no rows"
                                             : added->unknown > 0 ? "their radii are unknown"
                                                                  : "radii are 0, or a sphere of each is hidden"));

@@ -1,9 +1,10 @@
-// Spheres that let light straight through, apart from those that end a ray: OpacityRule::once and OpacityRule::first
-// (settings/opacity_rule.h).
+// Spheres that let light straight through, apart from those that end a ray: OpacityRule::once, first and as_one
+// (settings/opacity_rule.h). So do sticks, with the shares of their spheres.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/result.h"
@@ -21,6 +22,8 @@ namespace bihive {
 class CutSet;
 class RayEngine;
 class RemoteEngine;
+class StickSet;
+struct UnionOfBodies;
 struct DepthSums;
 
 /// The colour that the light gets which goes straight through: white if all of it does, and the nearer to the hue of
@@ -28,8 +31,8 @@ struct DepthSums;
 /// through; grey and black give white.
 Vec3d passing_tint(const Material& material);
 
-/// Where a ray crosses a transparent sphere first: `t` of geometry/sphere.h. So a ray crosses a sphere once, on its way
-/// in or, if it starts inside, on its way out; the sphere that it leaves outward it does not cross.
+/// Where a ray crosses a transparent sphere or stick first: `t` of geometry/sphere.h. So a ray crosses a body once, on
+/// its way in or, if it starts inside, on its way out; the one that it leaves outward it does not cross.
 struct Crossing {
   double t;
   std::int64_t id;
@@ -43,17 +46,31 @@ class TransparentSpheres {
   TransparentSpheres(const TransparentSpheres&) = delete;
   TransparentSpheres& operator=(const TransparentSpheres&) = delete;
 
+  /// What there is beside whole, uncoloured spheres that count one by one.
+  struct Properties {
+    /// Beside the spheres; null: none. In every list their halves follow the spheres. Both of a stick have the same
+    /// share and class.
+    const StickSet* sticks = nullptr;
+    std::shared_ptr<const CutSet> cuts = nullptr;  ///< of the spheres (scene/clips.h); null: all are whole
+    std::vector<Vec3d> tints = {};  ///< the colour that each share gets, as of passing_tint(); empty: none gets one
+    /// The scene, if images have colours of their own (scene/image_colours.h); null: they have those of the stored
+    /// spheres.
+    const Scene* of_images = nullptr;
+    std::int64_t first = -1;  ///< as for Tracer::build()
+    /// Of each its opacity_class(), of which a ray crosses the first alone; -1: it is in none; empty: none is in one.
+    std::vector<std::int8_t> classes = {};
+    bool as_one = false;  ///< of a class it crosses the union instead, each time that it enters it
+  };
+
   /// `passing`: of each sphere the share that it lets through, 0 to 1; 0: it is opaque. The trees are built for that
-  /// engine on that many threads (0: all). `cuts`: of the spheres (scene/clips.h); null: all are whole. `tints`: the
-  /// colour that the share of each sphere gets, as of passing_tint(); empty: none gets one. `of_images`: the scene, if
-  /// images have colours of their own (scene/image_colours.h); null: they have those of the stored spheres. `first`: as
-  /// for Tracer::build(). `classes`: of each sphere its opacity_class(), of which a ray crosses the first alone; -1: it
-  /// is in none; empty: no sphere is in one. The spheres and that scene must outlive it. Error: not enough memory for a
-  /// tree.
-  static Result<std::shared_ptr<const TransparentSpheres>> divide(
-      const SphereSet& spheres, std::vector<double> passing, Engine engine, int threads,
-      std::shared_ptr<const CutSet> cuts = nullptr, std::vector<Vec3d> tints = {}, const Scene* of_images = nullptr,
-      std::int64_t first = -1, std::vector<std::int8_t> classes = {});
+  /// engine on that many threads (0: all). The spheres, the sticks and that scene must outlive it. Error: not enough
+  /// memory for a tree.
+  static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
+                                                                  Engine engine, int threads, Properties more);
+  static Result<std::shared_ptr<const TransparentSpheres>> divide(const SphereSet& spheres, std::vector<double> passing,
+                                                                  Engine engine, int threads) {
+    return divide(spheres, std::move(passing), engine, threads, Properties());
+  }
 
   /// The same where other processes hold the spheres: `scene` knows those that were seen so far. `to_eye`: for rays
   /// that see, else for rays that ask for light. Both must outlive it.
@@ -65,8 +82,7 @@ class TransparentSpheres {
   Vec3d tint(std::int64_t id) const {
     if (!has_tints()) return {1, 1, 1};
     if (seen_ != nullptr) return tint_of(*seen_, id);
-    if (of_images_ != nullptr && static_cast<std::size_t>(id) >= tints_.size() && class_of(id) < 0)
-      return tint_of(*of_images_, id);
+    if (of_images_ != nullptr && id >= stored_spheres_ && class_of(id) < 0) return tint_of(*of_images_, id);
     return tints_[stored(id)];
   }
   /// The share that a surface does not let through; 1 of the plane.
@@ -78,7 +94,8 @@ class TransparentSpheres {
   void find_crossings(const Ray& ray, std::vector<Crossing>& found) const;
   /// Transmittance along the ray: 0 behind an opaque sphere, else that of the sum of the optical depths
   /// (math/optical_depth.h) of the crossed spheres in no class, in each channel that of share times tint, times the
-  /// share of the first sphere of each class, in the order of the classes.
+  /// share of the first sphere of each class, or of all that are crossed, in the order of the classes and along the
+  /// ray.
   Vec3d share(const Ray& ray) const;
 
   /// Many rays at a time. Each ray's answer goes to its place, all crossings to one list: by ray, t and id. hides: 1
@@ -91,9 +108,12 @@ class TransparentSpheres {
   void find_shares(const RaySpan& rays, RayOrder order, double* const columns[3]) const;
 
  private:
+  // The row of a sphere or of half a stick, of an image that of what is stored.
   std::size_t stored(std::int64_t id) const {
-    const auto i = static_cast<std::size_t>(id);
-    return i < passing_.size() ? i : i % passing_.size();
+    if (id < stored_spheres_) return static_cast<std::size_t>(id);
+    if (id < all_spheres_) return static_cast<std::size_t>(id % stored_spheres_);
+    const std::int64_t halves = static_cast<std::int64_t>(passing_.size()) - stored_spheres_;
+    return static_cast<std::size_t>(stored_spheres_ + (id - all_spheres_) % halves);
   }
 
   Vec3d tint_of(const Scene& scene, std::int64_t id) const;
@@ -105,11 +125,16 @@ class TransparentSpheres {
   double passing_of_seen(std::int64_t id) const;
 
   bool has_tints_ = false;
-  bool nothing_is_opaque_ = false;  // as far as is known
-  std::vector<double> passing_;
-  std::vector<Vec3d> tints_;          // empty: all are white
-  std::vector<OpticalDepth> depths_;  // a row for each stored sphere, 0 of those in a class; empty: they are remote
+  bool nothing_is_opaque_ = false;                     // as far as is known
+  std::int64_t stored_spheres_ = 0, all_spheres_ = 0;  // without and with images
+  std::vector<double> passing_;                        // of each stored sphere, then of each half of a stored stick
+  std::vector<Vec3d> tints_;                           // empty: all are white
+  std::vector<OpticalDepth> depths_;  // a row for each of these, 0 of those in a class; empty: they are remote
   std::vector<std::int8_t> classes_;  // empty: no sphere is in one, or they are remote
+  bool as_one_ = false;               // each class is a union
+  const SphereSet* spheres_ = nullptr;
+  const StickSet* sticks_ = nullptr;  // null: there are none
+  std::shared_ptr<const CutSet> cuts_;
   const Scene* of_images_ = nullptr;  // null: images have the tints of what is stored
   const Scene* seen_ = nullptr;       // of the spheres that were seen; null: all are here
   bool to_eye_ = false;               // where they are remote
@@ -120,6 +145,7 @@ class TransparentSpheres {
     std::shared_ptr<const RayEngine> engine;
     double share = 0;
   };
+  UnionOfBodies union_of(const Class& one) const;
   std::vector<Class> of_classes_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <new>
@@ -135,7 +136,10 @@ Status find_bonds(Scene& scene, const Sticks& sticks, int threads) {
   if (sticks.bonds == Bonds::file && bonds->empty())
     return Error{"the file states no bonds between these spheres", "", 0, 0,
                  setting_name("bonds") + " distance finds them"};
-  Result<StickSet> made = StickSet::between(scene.spheres, *bonds, sticks.radius);
+  std::function<bool(const SpherePair&)> is_parted;
+  if (lets_light_through(scene))
+    is_parted = [&scene](const SpherePair& pair) { return !are_equally_clear(scene, pair[0], pair[1]); };
+  Result<StickSet> made = StickSet::between(scene.spheres, *bonds, sticks.radius, is_parted);
   if (!made) return made.error();
   scene.sticks = std::move(*made);
   return check_sticks(scene);

@@ -1,6 +1,7 @@
 #include "bihive/scene/scene.h"
 
 #include <algorithm>
+#include <string>
 
 #include "bihive/scene/clips.h"
 #include "bihive/scene/image_colours.h"
@@ -14,11 +15,12 @@ std::vector<PointLight> local_lights(const Scene& scene) {
 }
 
 Status check_sticks(const Scene& scene) {
-  if (scene.sticks.empty()) return Done{};
-  const auto refused = [](const std::string& what) {
-    return Error{"sticks cannot be drawn beside " + what, "", 0, 0, "leave one of them out"};
-  };
-  if (lets_light_through(scene)) return refused("transparent spheres");
+  if (scene.sticks.empty() || !lets_light_through(scene)) return Done{};
+  for (const SpherePair& pair : scene.sticks.pairs())
+    if (pair[1] >= 0 && !are_equally_clear(scene, pair[0], pair[1]))
+      return Error{"a stick has one opacity, and that between the spheres " + std::to_string(input_id(scene, pair[0])) +
+                       " and " + std::to_string(input_id(scene, pair[1])) + " would have two",
+                   "", 0, 0, "give them the same, or make the stick of two parts"};
   return Done{};
 }
 
@@ -41,12 +43,21 @@ bool has_effects(const Scene& scene) {
 
 bool lets_light_through(const Scene& scene) {
   const std::vector<float>& opacity = scene.spheres.attributes().opacity;
+  if (scene.sticks.has_opacities()) return true;
   return std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const Material& material) { return material.transmissive > 0; }) ||
          std::any_of(opacity.begin(), opacity.end(), [](float share) { return share < 1; });
 }
 
-Material material_of(const Scene& scene, std::int64_t sphere_id) {
+bool are_equally_clear(const Scene& scene, std::int64_t one, std::int64_t other) {
+  const Material a = material_of(scene, one), b = material_of(scene, other);
+  return a.transmissive == b.transmissive && (a.transmissive == 0 || a.refraction_index == b.refraction_index);
+}
+
+namespace {
+
+// `factor`: of the sphere's own opacity.
+Material material_with(const Scene& scene, std::int64_t sphere_id, double factor) {
   const auto i = static_cast<std::size_t>(scene.spheres.stored_id(sphere_id));
   Material material =
       scene.materials[scene.material_of_sphere.empty() ? 0 : static_cast<std::size_t>(scene.material_of_sphere[i])];
@@ -56,8 +67,8 @@ Material material_of(const Scene& scene, std::int64_t sphere_id) {
     material.colour = to_double(ImageColours(scene).colour(sphere_id));
 
   // The complement of the opacity is transmitted straight.
-  if (!attributes.opacity.empty() && attributes.opacity[i] < 1) {
-    const double opacity = double(attributes.opacity[i]);
+  const double opacity = factor * (attributes.opacity.empty() ? 1 : double(attributes.opacity[i]));
+  if (opacity < 1) {
     material.ambient *= opacity;
     material.diffuse *= opacity;
     material.specular *= opacity;
@@ -65,6 +76,20 @@ Material material_of(const Scene& scene, std::int64_t sphere_id) {
     material.transmissive = 1 - opacity;
     material.refraction_index = 1;
   }
+  return material;
+}
+
+}  // namespace
+
+Material material_of(const Scene& scene, std::int64_t sphere_id) {
+  return material_with(scene, sphere_id, 1);
+}
+
+Material shown_material(const Scene& scene, std::int64_t id) {
+  const std::int64_t half = id - scene.spheres.total_size();
+  if (half < 0) return material_of(scene, id);
+  Material material = material_with(scene, shown_sphere(scene, id), scene.sticks.opacity_at(half));
+  if (const Vec3f* const own = scene.sticks.colour_at(half)) material.colour = to_double(*own);
   return material;
 }
 

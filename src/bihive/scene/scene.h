@@ -49,8 +49,7 @@ struct ScenePlane {
 
 struct Scene {
   SphereSet spheres;
-  /// Between the spheres, in the appearance of those at their ends. They are opaque: a scene with sticks has no
-  /// transparent spheres (check_sticks()).
+  /// Between the spheres, in the appearance of those at their ends, which are equally clear (check_sticks()).
   StickSet sticks;
   std::vector<Material> materials{matte_material()};  ///< at least one
   std::vector<std::int32_t> material_of_sphere;       ///< positions in `materials`; empty: all use the first
@@ -97,7 +96,8 @@ inline std::int64_t shown_sphere(const Scene& scene, std::int64_t id) {
   return half < 0 ? id : scene.sticks.sphere_at(scene.spheres, half);
 }
 
-/// An Error where the scene has sticks that pictures cannot show as they should: beside transparent spheres.
+/// An Error where the scene has a stick that pictures cannot show as they should: between spheres that are not equally
+/// clear.
 Status check_sticks(const Scene& scene);
 
 /// As rays see them: relative to the origin of the spheres.
@@ -119,11 +119,18 @@ bool has_own_lines(const Scene& scene);
 /// Whether a material of the list or of the plane has effects.
 bool has_effects(const Scene& scene);
 
-/// Whether some sphere transmits light, straight or refracted.
+/// Whether some sphere or stick transmits light, straight or refracted.
 bool lets_light_through(const Scene& scene);
+
+/// Whether two spheres, by their ids, transmit the same share of light in the same way.
+bool are_equally_clear(const Scene& scene, std::int64_t one, std::int64_t other);
 
 /// The material of one sphere, from the list. A colour attribute replaces the colour. An opacity a below 1 scales
 /// ambient, diffuse, specular and glow by a, and 1 - a of the light goes straight through (index 1).
 Material material_of(const Scene& scene, std::int64_t sphere_id);
+
+/// The material of a surface, by the id of a hit on a sphere or a stick: that of shown_sphere(), with the colour and
+/// the opacity that the stick has of its own.
+Material shown_material(const Scene& scene, std::int64_t id);
 
 }  // namespace bihive

@@ -11,11 +11,12 @@ namespace bihive {
 /// ambient occlusion are attenuated by the same share. Refracting spheres transmit shadow rays straight, with their own
 /// share. first: as `once`, but of all spheres of one class of opacity a ray crosses the first alone, without a tint,
 /// so that they look like one hollow body; others of their class do not exist for this ray. Refracting spheres are in
-/// no class.
-enum class OpacityRule { each_surface, once, first };
+/// no class. as_one: as `first`, but a ray crosses each class each time that it enters the union of its spheres: those
+/// that it enters inside of another one of their class do not count. So overlapping spheres look like one solid body.
+enum class OpacityRule { each_surface, once, first, as_one };
 
-/// With OpacityRule::first: the class, 0 to 15, of a sphere that transmits this share straight, above 0 up to 1.
-/// Spheres whose opacities lie within the same sixteenth are in one class.
+/// With OpacityRule::first and as_one: the class, 0 to 15, of a sphere that transmits this share straight, above 0 up
+/// to 1. Spheres whose opacities lie within the same sixteenth are in one class.
 constexpr int kOpacityClasses = 16;
 inline int opacity_class(double share) {
   const int sixteenth = static_cast<int>(kOpacityClasses * share);
@@ -23,7 +24,7 @@ inline int opacity_class(double share) {
 }
 
 /// Rays cross layers in every generation, so their number would be a power of the number of layers. Hence, in a scene
-/// where the rule `once` or `first` applies to some sphere, a reflected or refracted ray that carries less of a primary
+/// where another rule applies to some sphere, a reflected or refracted ray that carries less of a primary
 /// ray's light than this is not traced: less than 1/8 of a step of an 8-bit picture in linear light. Nor is a sphere
 /// that a ray passes straight through shaded where less than this arrives at it.
 constexpr double kFaintestRay = 1.0 / 2048;

@@ -148,7 +148,7 @@ constexpr std::array kRows{
         .report = "ambient_occlusion.directions", .ranks = ParameterRanks::chunks, .implies = "ao",
         .help = "Directions of ambient occlusion per sample", .usual = "64", .group = Group::light,
         .label = "directions", .slider_least = 1, .slider_most = 256}),
-    row<&P::opacity_rule>({.id = "opacity_rule", .kind = choice, .names = "each_surface|once|first", .path = "opacity_rule",
+    row<&P::opacity_rule>({.id = "opacity_rule", .kind = choice, .names = "each_surface|once|first|as_one", .path = "opacity_rule",
         .report = "opacity_rule", .needs = ParameterNeeds::see_through,
         .ranks = ParameterRanks::chunks,
         .help = "Whether a transparent sphere weakens light at each surface, once, or if it is the first of its opacity along a ray", .usual = "the style's",

@@ -242,6 +242,9 @@ Status SpreadScene::refusal(const Scene& scene, const RenderSettings& settings) 
 Result<std::shared_ptr<const SpreadScene>> SpreadScene::make(Scene scene, const RenderSettings& settings,
                                                              const TreeParameters& parameters, Communicator& ranks) {
   BIHIVE_CHECK(!scene.spheres.has_images());
+  if (settings.opacity_rule == OpacityRule::as_one)
+    return Error{setting_name("opacity_rule") + " as_one needs all spheres in one place, and they are distributed", "",
+                 0, 0, "first counts the first of them"};
   std::shared_ptr<SpreadScene> made(new SpreadScene);
   Implementation& all = *made->implementation_;
   all.shell = without_spheres(scene);

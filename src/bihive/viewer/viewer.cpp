@@ -365,6 +365,9 @@ class Viewer::Implementation {
     if (!gpu_) return bad_setting("there is no graphics processor", "choose the CPU engine");
     if (settings.view == View::tree)
       return bad_setting("the graphics processor does not draw the tree itself", "choose the CPU engine");
+    if (settings.picture.result().opacity_rule == OpacityRule::as_one)
+      return bad_setting("the graphics processor does not draw overlapping spheres as one",
+                         "choose the CPU engine, or another opacity");
     return Done{};
   }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,15 +20,23 @@ namespace bihive {
 /// the scalar traversal, up to where the ray meets a sphere; for the copies of a replicated set, one after the other.
 class StickEngine final : public RayEngine {
  public:
-  /// Spheres and sticks must outlive it. `cuts`: what clips leave of them; null: all. std::bad_alloc: there is not
-  /// enough memory. Within a WatchedWork it may throw Cancelled.
+  /// Of all sticks. Spheres and sticks must outlive it. `cuts`: what clips leave of them; null: all. std::bad_alloc:
+  /// there is not enough memory. Within a WatchedWork it may throw Cancelled.
   StickEngine(const SphereSet& spheres, const StickSet& sticks, std::shared_ptr<const RayEngine> of_spheres,
               std::shared_ptr<const CutSet> cuts = nullptr)
-      : spheres_(spheres), sticks_(sticks), engine_of_spheres_(std::move(of_spheres)), cuts_(std::move(cuts)) {
+      : StickEngine(spheres, sticks, all_of(sticks), std::move(of_spheres), std::move(cuts)) {}
+  /// Of the sticks of these numbers, ascending. Rays may exit the others too.
+  StickEngine(const SphereSet& spheres, const StickSet& sticks, std::vector<std::int32_t> numbers,
+              std::shared_ptr<const RayEngine> of_spheres, std::shared_ptr<const CutSet> cuts = nullptr)
+      : spheres_(spheres),
+        sticks_(sticks),
+        numbers_(std::move(numbers)),
+        engine_of_spheres_(std::move(of_spheres)),
+        cuts_(std::move(cuts)) {
     constexpr std::int64_t kSticksOfLeaf = 2;  // a test of a stick costs more than that of a box
     std::vector<Aabb> boxes;
-    boxes.reserve(static_cast<std::size_t>(sticks.size()));
-    for (std::int64_t stick = 0; stick < sticks.size(); ++stick) boxes.push_back(sticks.stored_box(spheres, stick));
+    boxes.reserve(numbers_.size());
+    for (const std::int32_t stick : numbers_) boxes.push_back(sticks.stored_box(spheres, stick));
     tree_ = build_reference_tree(boxes, {kSticksOfLeaf, kUnlimited});
   }
 
@@ -61,8 +70,29 @@ class StickEngine final : public RayEngine {
     }
     sort_hits(found);
   }
+  /// The rows of the stored spheres are followed by one for each half of a stored stick.
+  void optical_depths(const RaySpan& rays, RayOrder order, const SphereDepths& depths,
+                      const DepthSums& sums) const override {
+    engine_of_spheres_->optical_depths(of_spheres(rays), order, depths, sums);
+    static thread_local std::vector<RayHit> found;
+    for (std::int64_t i = 0; i < rays.count; ++i) {
+      found.clear();
+      All all{*this, {i, found}};
+      traverse_sticks(rays.at(i), all);
+      for (const RayHit& hit : found) {
+        const std::int64_t half = (hit.sphere_id - spheres_.total_size()) % (2 * sticks_.size());
+        sums.add(i, depths.row(spheres_.size() + half), depths.columns);
+      }
+    }
+  }
 
  private:
+  static std::vector<std::int32_t> all_of(const StickSet& sticks) {
+    std::vector<std::int32_t> numbers(static_cast<std::size_t>(sticks.size()));
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+  }
+
   // The hits of a ray on sticks: the closest one or any, or all of them.
   struct Nearest {
     const StickEngine& engine;
@@ -106,11 +136,12 @@ class StickEngine final : public RayEngine {
   template <class Answer>
   struct AnswerOfImage {
     Answer& answer;
-    std::int64_t first;  // stick
+    const std::vector<std::int32_t>* numbers;  // of the sticks in the tree
+    std::int64_t first;                        // stick of the copy
     bool ended = false;
 
-    bool test(std::int64_t stick) {
-      ended = answer.test(first + stick);
+    bool test(std::int64_t index) {
+      ended = answer.test(first + (*numbers)[static_cast<std::size_t>(index)]);
       return ended;
     }
     double limit() const { return answer.limit(); }
@@ -123,7 +154,8 @@ class StickEngine final : public RayEngine {
     double limit() const { return answer.limit(); }
     bool visit(const ImageRange& image) {
       const SphereSet& spheres = engine.spheres_;
-      AnswerOfImage<Answer> of_image{answer, spheres.images().number(image.first) * engine.sticks_.size()};
+      AnswerOfImage<Answer> of_image{answer, &engine.numbers_,
+                                     spheres.images().number(image.first) * engine.sticks_.size()};
       ScaledRay in_tree = answer.ray.ray;
       in_tree.origin = in_tree.origin - spheres.scale() * spheres.images().shift(image.first);
       NoObserver observer;
@@ -134,7 +166,7 @@ class StickEngine final : public RayEngine {
 
   template <class Answer>
   void traverse_sticks(const Ray& ray, Answer& answer) const {
-    if (!is_valid(ray) || sticks_.empty()) return;
+    if (!is_valid(ray) || numbers_.empty()) return;
     if (cuts_ != nullptr) {
       cuts_->enter(ray, cuts_->cutting_sticks(), answer.cut);
       answer.ray = cuts_->stick_ray_of(ray, answer.cut);
@@ -143,7 +175,8 @@ class StickEngine final : public RayEngine {
     }
     if (!spheres_.has_images()) {
       NoObserver observer;
-      walk(tree_, spheres_, answer.ray.ray, answer, observer, kPadOfSticks);
+      AnswerOfImage<Answer> of_all{answer, &numbers_, 0};
+      walk(tree_, spheres_, answer.ray.ray, of_all, observer, kPadOfSticks);
       return;
     }
     EachImage<Answer> each{*this, answer};
@@ -180,6 +213,7 @@ class StickEngine final : public RayEngine {
 
   const SphereSet& spheres_;
   const StickSet& sticks_;
+  std::vector<std::int32_t> numbers_;  // of the sticks in the tree
   std::shared_ptr<const RayEngine> engine_of_spheres_;
   std::shared_ptr<const CutSet> cuts_;
   Tree tree_;  // of the sticks' boxes

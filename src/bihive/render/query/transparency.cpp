@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/watch.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/query/build_engine.h"
+#include "bihive/render/query/entries.h"
 #include "bihive/render/query/remote_rays.h"
+#include "bihive/render/query/stick_engine.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/image_colours.h"
 
@@ -18,12 +22,37 @@ namespace {
 struct Passing {
   double to_eye, to_light;
 
-  int class_by(OpacityRule rule) const { return rule == OpacityRule::first && to_eye > 0 ? opacity_class(to_eye) : -1; }
+  int class_by(OpacityRule rule) const {
+    return (rule == OpacityRule::first || rule == OpacityRule::as_one) && to_eye > 0 ? opacity_class(to_eye) : -1;
+  }
 };
 Passing passing_of(const Material& material) {
   const double share = std::min(material.transmissive, 1.0);
   return {is_passed_straight(material) ? share : 0, share};
 }
+
+// Spheres and sticks of which a ray takes the same account.
+struct Bodies {
+  std::vector<std::int64_t> spheres{};  // ids
+  std::vector<std::int32_t> sticks{};   // numbers
+  std::optional<double> share{};        // that all of them let through; 0: they differ
+
+  bool empty() const { return spheres.empty() && sticks.empty(); }
+  void add_sphere(std::int64_t id, double passing) {
+    spheres.push_back(id);
+    add(passing);
+  }
+  void add_stick(std::int64_t number, double passing) {
+    sticks.push_back(static_cast<std::int32_t>(number));
+    add(passing);
+  }
+
+ private:
+  void add(double passing) {
+    if (!share) share = passing;
+    if (*share != passing) share = 0;
+  }
+};
 
 }  // namespace
 
@@ -36,49 +65,70 @@ Vec3d passing_tint(const Material& material) {
   return {of(colour.x), of(colour.y), of(colour.z)};
 }
 
-Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(
-    const SphereSet& spheres, std::vector<double> passing, Engine engine, int threads,
-    std::shared_ptr<const CutSet> cuts, std::vector<Vec3d> tints, const Scene* of_images, std::int64_t first,
-    std::vector<std::int8_t> classes) {
+Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(const SphereSet& spheres,
+                                                                             std::vector<double> passing, Engine engine,
+                                                                             int threads, Properties more) {
   try {
     auto made = std::make_shared<TransparentSpheres>();
     made->passing_ = std::move(passing);
-    made->tints_ = std::move(tints);
+    made->tints_ = std::move(more.tints);
     made->has_tints_ = !made->tints_.empty();
-    made->of_images_ = of_images;
-    made->classes_ = std::move(classes);
-    std::vector<std::int64_t> opaque, transparent;
-    std::vector<std::vector<std::int64_t>> of_class(kOpacityClasses);
-    const std::int64_t count = first < 0 ? spheres.size() : first;
-    for (std::int64_t id = 0; id < count; ++id) {
+    made->of_images_ = more.of_images;
+    made->classes_ = std::move(more.classes);
+    made->as_one_ = more.as_one;
+    made->spheres_ = &spheres;
+    made->sticks_ = more.sticks;
+    made->cuts_ = more.cuts;
+    made->stored_spheres_ = spheres.size();
+    made->all_spheres_ = spheres.total_size();
+    Bodies opaque, transparent;
+    std::vector<Bodies> of_class(kOpacityClasses);
+    const auto part_of = [&](std::int64_t id) -> Bodies& {
       const int its_class = made->class_of(id);
-      if (!(made->passing(id) > 0))
-        opaque.push_back(id);
-      else
-        (its_class < 0 ? transparent : of_class[static_cast<std::size_t>(its_class)]).push_back(id);
+      if (!(made->passing(id) > 0)) return opaque;
+      return its_class < 0 ? transparent : of_class[static_cast<std::size_t>(its_class)];
+    };
+    const std::int64_t count = more.first < 0 ? spheres.size() : more.first;
+    for (std::int64_t id = 0; id < count; ++id) part_of(id).add_sphere(id, made->passing(id));
+    const std::int64_t stick_count = more.sticks != nullptr ? more.sticks->size() : 0;
+    for (std::int64_t stick = 0; stick < stick_count; ++stick) {
+      const std::int64_t id = made->all_spheres_ + 2 * stick;
+      part_of(id).add_stick(stick, made->passing(id));
     }
     made->nothing_is_opaque_ = opaque.empty();
     made->depths_.assign(made->passing_.size() * static_cast<std::size_t>(made->columns()), 0);
-    for (const std::int64_t id : transparent) made->find_depths(id, made->depths_.data() + id * made->columns());
-    Result<std::shared_ptr<const RayEngine>> part =
-        build_engine(spheres, std::move(opaque), cuts, {engine, {}, threads});
+    const auto add_depths = [&](std::int64_t id) {
+      made->find_depths(id, made->depths_.data() + static_cast<std::int64_t>(made->stored(id)) * made->columns());
+    };
+    for (const std::int64_t id : transparent.spheres) add_depths(id);
+    for (const std::int32_t stick : transparent.sticks)
+      for (const std::int64_t half : {0, 1}) add_depths(made->all_spheres_ + 2 * stick + half);
+    const auto built = [&](Bodies bodies,
+                           const EngineParameters& parameters) -> Result<std::shared_ptr<const RayEngine>> {
+      Result<std::shared_ptr<const RayEngine>> part =
+          build_engine(spheres, std::move(bodies.spheres), more.cuts, parameters);
+      if (!part || bodies.sticks.empty()) return part;
+      return Result<std::shared_ptr<const RayEngine>>(
+          std::make_shared<StickEngine>(spheres, *more.sticks, std::move(bodies.sticks), std::move(*part), more.cuts));
+    };
+    Result<std::shared_ptr<const RayEngine>> part = built(std::move(opaque), {engine, {}, threads});
     if (!part) return part.error();
     made->opaque_ = std::move(*part);
     // Crossings are found by a tree, also for the brute engines.
     const EngineParameters of_tree{is_brute(engine) ? Engine::reference : engine, {}, threads};
-    part = build_engine(spheres, std::move(transparent), cuts, of_tree);
+    part = built(std::move(transparent), of_tree);
     if (!part) return part.error();
     made->transparent_ = std::move(*part);
-    for (std::vector<std::int64_t>& ids : of_class) {
-      if (ids.empty()) continue;
-      const double share = made->passing(ids.front());
-      const bool alike =
-          std::all_of(ids.begin(), ids.end(), [&](std::int64_t id) { return made->passing(id) == share; });
-      part = build_engine(spheres, std::move(ids), cuts, of_tree);
+    for (Bodies& bodies : of_class) {
+      if (bodies.empty()) continue;
+      const double share = bodies.share.value_or(0);
+      part = built(std::move(bodies), of_tree);
       if (!part) return part.error();
-      made->of_classes_.push_back({std::move(*part), alike ? share : 0});
+      made->of_classes_.push_back({std::move(*part), share});
     }
     return std::shared_ptr<const TransparentSpheres>(std::move(made));
+  } catch (const Cancelled&) {
+    return cancelled_error();
   } catch (const std::bad_alloc&) {
     return no_memory_for("the transparent spheres");
   }
@@ -104,7 +154,7 @@ double TransparentSpheres::passing_of_seen(std::int64_t id) const {
 }
 
 Vec3d TransparentSpheres::tint_of(const Scene& scene, std::int64_t id) const {
-  const Material material = material_of(scene, id);
+  const Material material = shown_material(scene, id);
   const bool is_tinted = passing(id) > 0 && (!has_classes_ || passing_of(material).class_by(OpacityRule::first) < 0);
   return is_tinted ? passing_tint(material) : Vec3d{1, 1, 1};
 }
@@ -160,6 +210,10 @@ void TransparentSpheres::sum_of_hits(const RaySpan& rays, RayOrder order, const 
   }
 }
 
+UnionOfBodies TransparentSpheres::union_of(const Class& one) const {
+  return {one.engine.get(), spheres_, sticks_, cuts_.get()};
+}
+
 void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, double* const shares[3]) const {
   // Spheres in no class; where they are remote, all of them.
   const auto count = static_cast<std::size_t>(rays.count);
@@ -179,7 +233,13 @@ void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, double
   // The first of each class, or where all let the same through, any.
   static thread_local HitBatch hits;
   static thread_local std::vector<std::uint8_t> crossed;
+  static thread_local std::vector<RayHit> entries;
   for (const Class& one : of_classes_) {
+    if (as_one_) {
+      union_of(one).find_entries(rays, order, entries);
+      for (const RayHit& entry : entries) passed[static_cast<std::size_t>(entry.ray)] *= passing(entry.sphere_id);
+      continue;
+    }
     if (one.share > 0) {
       crossed.resize(count);
       one.engine->occluded(rays, order, crossed.data());
@@ -217,7 +277,13 @@ void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std
   if (has_classes_) keep_first_of_classes(found);
   if (of_classes_.empty()) return;
   static thread_local HitBatch hits;
+  static thread_local std::vector<RayHit> entries;
   for (const Class& one : of_classes_) {
+    if (as_one_) {
+      union_of(one).find_entries(rays, order, entries);
+      found.insert(found.end(), entries.begin(), entries.end());
+      continue;
+    }
     hits.resize(rays.count);
     one.engine->closest_hits(rays, order, hits.span());
     for (std::int64_t i = 0; i < rays.count; ++i)
@@ -250,15 +316,19 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
                              std::int64_t first) {
   Transparency parts;
   if (rule == OpacityRule::each_surface || !lets_light_through(scene)) return parts;
-  const auto count = static_cast<std::size_t>(scene.spheres.size());
+  const std::int64_t spheres = scene.spheres.size();
+  const auto count = static_cast<std::size_t>(spheres + 2 * scene.sticks.size());
   std::vector<double> to_eye(count), to_light(count);
-  std::vector<std::int8_t> classes(rule == OpacityRule::first ? count : 0);
+  const bool has_classes = rule == OpacityRule::first || rule == OpacityRule::as_one;
+  std::vector<std::int8_t> classes(has_classes ? count : 0);
   // Images may have a tint where the stored spheres have none.
   const Scene* const of_images = ImageColours(scene).any() ? &scene : nullptr;
   std::vector<Vec3d> tints;
   bool may_tint = false;
   for (std::size_t i = 0; i < count; ++i) {
-    const Material material = material_of(scene, static_cast<std::int64_t>(i));
+    // Of the halves of sticks after the spheres.
+    const auto row = static_cast<std::int64_t>(i);
+    const Material material = shown_material(scene, row < spheres ? row : row - spheres + scene.spheres.total_size());
     const Passing passing = passing_of(material);
     to_eye[i] = passing.to_eye;
     to_light[i] = passing.to_light;
@@ -279,8 +349,15 @@ Result<Transparency> divided(const Scene& scene, OpacityRule rule, RemoteEngine*
     if (std::none_of(passing.begin(), passing.end(), [](double share) { return share > 0; }))
       return std::shared_ptr<const TransparentSpheres>();
     if (remote != nullptr) return TransparentSpheres::remote(scene, *remote, is_to_eye, !tints.empty(), rule);
-    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, cuts, tints,
-                                      may_tint ? of_images : nullptr, first, classes);
+    TransparentSpheres::Properties more;
+    more.sticks = scene.sticks.empty() ? nullptr : &scene.sticks;
+    more.cuts = cuts;
+    more.tints = tints;
+    more.of_images = may_tint ? of_images : nullptr;
+    more.first = first;
+    more.classes = classes;
+    more.as_one = rule == OpacityRule::as_one;
+    return TransparentSpheres::divide(scene.spheres, std::move(passing), engine, threads, std::move(more));
   };
   Result<std::shared_ptr<const TransparentSpheres>> part = divide(to_light, alike);
   if (!part) return part.error();

@@ -54,10 +54,7 @@ Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit, cons
       outward = hit.id >= scene.spheres.total_size()
                     ? stick_normal(scene, ray, hit)
                     : normalized((origin - scene.spheres.local_centre(hit.id)) + along);
-    surface.material = material_of(scene, shown_sphere(scene, hit.id));
-    const std::int64_t half = hit.id - scene.spheres.total_size();
-    if (half >= 0)
-      if (const Vec3f* const own = scene.sticks.colour_at(half)) surface.material.colour = to_double(*own);
+    surface.material = shown_material(scene, hit.id);
   }
   surface.from_inside = dot(surface.incoming, outward) > 0;
   surface.normal = surface.from_inside ? -outward : outward;

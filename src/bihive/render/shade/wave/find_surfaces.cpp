@@ -107,7 +107,8 @@ WaveScene::WaveScene(const Scene& drawn, OpacityRule rule)
   const auto spawns = [](const Material& material) { return material.reflective > 0 || material.transmissive > 0; };
   spawns_rays =
       std::any_of(materials.begin(), materials.end(), spawns) || (drawn.plane && spawns(drawn.plane->material));
-  has_attributes = !attributes.colour.empty() || !attributes.opacity.empty() || drawn.sticks.has_colours();
+  has_attributes = !attributes.colour.empty() || !attributes.opacity.empty() || drawn.sticks.has_colours() ||
+                   drawn.sticks.has_opacities();
   if (!drawn.plane) return;
   plane = local_plane(drawn);
   shadows_only = drawn.plane->shadows_only;

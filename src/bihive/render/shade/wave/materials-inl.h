@@ -52,9 +52,16 @@ HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes
   alignas(64) std::int64_t ids[kLanes];
   hn::Store(id, LongTag(), ids);
   alignas(64) double channel[3][kLanes] = {}, opacity_of[kLanes] = {};
+  const bool has_opacity =
+      !attributes.opacity.empty() || (HWY_UNLIKELY(scene.has_sticks) && scene.scene->sticks.has_opacities());
   for (int k = 0; k < kLanes; ++k) {
     if (ids[k] < 0) continue;
-    if (HWY_UNLIKELY(scene.has_sticks)) ids[k] = shown_sphere(*scene.scene, ids[k]);
+    double of_stick = 1;
+    if (HWY_UNLIKELY(scene.has_sticks)) {
+      const std::int64_t half = ids[k] - scene.scene->spheres.total_size();
+      if (half >= 0) of_stick = scene.scene->sticks.opacity_at(half);
+      ids[k] = shown_sphere(*scene.scene, ids[k]);
+    }
     const auto i = static_cast<std::size_t>(scene.scene->spheres.stored_id(ids[k]));
     if (!attributes.colour.empty()) {
       const Vec3f colour = scene.image_colours.any() ? scene.image_colours.colour(ids[k]) : attributes.colour[i];
@@ -62,7 +69,7 @@ HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes
       channel[1][k] = double(colour.y);
       channel[2][k] = double(colour.z);
     }
-    if (!attributes.opacity.empty()) opacity_of[k] = double(attributes.opacity[i]);
+    if (has_opacity) opacity_of[k] = of_stick * (attributes.opacity.empty() ? 1 : double(attributes.opacity[i]));
   }
   if (!attributes.colour.empty()) {
     const Tag d;
@@ -71,7 +78,7 @@ HWY_INLINE void apply_attributes(const WaveScene& scene, Longs id, MaterialLanes
   }
   if (HWY_UNLIKELY(scene.has_sticks) && scene.scene->sticks.has_colours())
     colour_sticks(*scene.scene, id, lanes.colour);
-  if (attributes.opacity.empty()) return;
+  if (!has_opacity) return;
   const Lanes opacity = hn::Load(Tag(), opacity_of);
   const LaneMask clear = hn::And(on_sphere, hn::Lt(opacity, all(1)));
   lanes.ambient = hn::IfThenElse(clear, hn::Mul(lanes.ambient, opacity), lanes.ambient);
