@@ -46,30 +46,36 @@ class Table(ProgramTest):
             places = [p for p in itertools.product((-1, 0, 1), repeat=3) if any(p)]
             file.write("x,y,z,r\n" + "".join(f"{x},{y},{z},0.5\n" for x, y, z in places))
         with open(self.path("atoms.xyz"), "w") as file:
-            file.write("3\n\nC 0 0 0\nO 1.2 0 0\nH -0.6 0.9 0\n")
+            file.write("5\n\nC 0 0 0\nO 1.2 0 0\nH -0.6 0.9 0\nO 4 0 0\nH 3.05 0 0\n")
+        with open(self.path("run.xyz"), "w") as file:
+            file.write("".join(f"2\n\nAr {i} 0 0\nAr 0 {3 + i} 0\n" for i in range(3)))
         for row in self.table():
             if "option" not in row or "path" not in row or row["id"] in left_out:
                 continue
             with self.subTest(row["id"]):
                 value = {"bond_reach": 1.4, "arrows": "x,y,r", "arrow_select": "index 1", "arrow_colour": "x:magma", "trace_select": "index 0 2",
-                         "trace_radius": "r/2", "trace_atoms": "shown", "show_cavities": 0.25}.get(row["id"]) or values[row["kind"]](row)
+                         "trace_radius": "r/2", "trace_atoms": "shown", "trail": 2, "trail_select": "index 1", "show_cavities": 0.25}.get(row["id"]) or values[row["kind"]](row)
                 whole, _, key = row["path"].partition(".")
                 picture = {whole: {key: value} if key else {} if whole == "ambient_occlusion" else value}
                 # A part of something whose presence has a number of its own is set with it.
                 extra = {"fog": ["--fog", "0.5"], "outline": ["--outline", "1", "--line-unit", "px"]}.get(whole, []) if key and row["id"] not in ("fog",) else []
                 # Bonds are between atoms, and what is theirs is set with them.
                 of_bonds = row["id"] in ("bonds", "bond_reach", "stick_radius", "ball_scale")
-                spheres = self.path("atoms.xyz" if of_bonds else "hollow.csv" if row["id"] == "show_cavities" else "spheres.csv")
+                of_atoms = of_bonds or row["id"].startswith("hbond")
+                spheres = self.path("atoms.xyz" if of_atoms else "run.xyz" if row["id"].startswith("trail") else "hollow.csv" if row["id"] == "show_cavities" else "spheres.csv")
                 if of_bonds and row["id"] != "bonds":
                     picture["bonds"] = "distance"
                     extra = ["--bonds", "distance"]
-                # The same for arrows, and for tubes.
-                for kind, on in (("arrows", "x,y,r"), ("trace", "mol")):
+                # The same for arrows, tubes, trails and hydrogen bonds.
+                for kind, on in (("arrows", "x,y,r"), ("trace", "mol"), ("trail", 1), ("hbonds", True)):
                     if row["id"].startswith(kind.rstrip("s") + "_"):
                         picture[kind] = on
-                        extra = [f"--{kind}", on]
+                        extra = [f"--{kind}"] if on is True else [f"--{kind}", str(on)]
+                of_frame = {"frame": 2} if row["id"].startswith("trail") else {}
+                if of_frame:
+                    extra = [*extra, "--frame", "2"]
                 with open(self.path("scene.json"), "w") as file:
-                    json.dump({"bihive_scene": 2, "picture": picture, "spheres": {"file": spheres}}, file)
+                    json.dump({"bihive_scene": 2, "picture": picture, "spheres": {"file": spheres, **of_frame}}, file)
                 by_file = self.hash(self.path("scene.json"), *size)
                 option = row["option"] if value is not False else row["option"].replace("--", "--no-", 1)
                 words = [option] if row["kind"] == "flag" else [f"{option}={value}"]

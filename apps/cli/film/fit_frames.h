@@ -1,11 +1,11 @@
 // The camera of a film that shows the spheres of all its frames.
 #pragma once
 
+#include "bihive/job/frame_source.h"
 #include "bihive/scene/camera.h"
 #include "bihive/scene/render_settings.h"
 #include "bihive/scene/style.h"
 #include "film/film_plan.h"
-#include "film/frame_source.h"
 
 namespace bihive::cli {
 

@@ -184,7 +184,10 @@ FilmPlan::Fixed fixed_by_film(const FrameSource& source, const FilmPlan& plan, c
   auto [shown, input] = first_shown_frame(source, plan, options, style);
   if (!is_generated(first.input.input)) first.input.reading.set_frame(shown);
   warn(input.warnings);
-  const RenderSettings settings = prepare_picture(first, choose_engine(first), input);
+  const RenderSettings settings = prepare_picture(first, choose_engine(first), input, nullptr, &source);
+  if (settings.trails.any() && !options.align.empty())
+    fail_setting("trail", " shows where spheres were read, and " + setting_name("align") + " moves them",
+                 "leave one of them out");
 
   FilmPlan::Fixed fixed;
   const Tile drawn = drawn_pixels(settings);

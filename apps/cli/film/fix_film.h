@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "bihive/job/frame_source.h"
 #include "bihive/scene/style.h"
 #include "film/film_plan.h"
-#include "film/frame_source.h"
 
 namespace bihive::cli {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "bihive/job/frame_source.h"
 #include "bihive/job/rigid_motion.h"
 #include "bihive/scene/style.h"
 #include "film/film_plan.h"
-#include "film/frame_source.h"
 
 namespace bihive::cli {
 

@@ -159,7 +159,7 @@ class FilmSteps {
       picture->times = read->times;
       picture->input = std::move(read->input);
       const RenderEngine engine = choose_engine(options_);
-      picture->settings = prepare_picture(picture->options, engine, picture->input);
+      picture->settings = prepare_picture(picture->options, engine, picture->input, nullptr, &source_);
       if (picture->settings.width_px != plan_.fixed.width_px || picture->settings.height_px != plan_.fixed.height_px)
         if (!picture->settings.crop)
           fail({"the pictures of the film differ in size", "", 0, 0, "give one by " + setting_name("size")});

@@ -1,10 +1,10 @@
 // Makes the pictures of a film, several steps at a time.
 #pragma once
 
+#include "bihive/job/frame_source.h"
 #include "bihive/scene/style.h"
 #include "film/film_plan.h"
 #include "film/film_sink.h"
-#include "film/frame_source.h"
 #include "film/picture_numbers.h"
 #include "support/communicator.h"
 

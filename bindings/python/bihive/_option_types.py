@@ -82,6 +82,12 @@ class RenderOptions(ReadOptions, total=False):
     trace_select: Optional[str]  # The beads of tubes (CA and P, or all where there are none)
     trace_radius: Optional[Union[Union[float, str], npt.ArrayLike]]  # Radius of tubes in world units: a number, an attribute, or arithmetic: b_factor/50 (a quarter of the bead's)
     trace_atoms: Optional[Literal["hidden", "shown"]]  # Whether the spheres of traced residues are drawn too (hidden)
+    trail: Optional[int]  # Draw the path of each sphere through the N frames before as a thin stick that fades; 0: none (0)
+    trail_select: Optional[str]  # The spheres that have trails (all)
+    trail_radius: Optional[float]  # Radius of trails in world units (a fifth of the sphere's)
+    hbonds: Optional[bool]  # Draw hydrogen bonds as dashes, found by distance and angle (docs/pictures.md)
+    hbond_radius: Optional[float]  # Radius of the dashes of hydrogen bonds in world units (0.06)
+    hbond_colour: Optional[Colour]  # Colour of hydrogen bonds (blue)
     show_cavities: Optional[float]  # In place of the spheres draw the walls of the cavities that they enclose, where a probe of this radius can be (docs/measures.md) (none)
     exposure: Optional[float]  # Stops: all light times 2^EV; the background keeps its colour (the style's)
     tone: Optional[Literal["none", "soft", "filmic"]]  # Curve for light that is too bright for the picture (the style's)
@@ -129,6 +135,7 @@ class RenderOptions(ReadOptions, total=False):
     links: Optional[Union[Path, npt.ArrayLike, Mapping[str, npt.ArrayLike]]]  # Draw a stick for each row of a CSV file, whose columns first and second are the numbers of two spheres, from 0
     link_radius: Optional[Union[float, str]]  # Radius of these sticks, or F times a column (a quarter of the smaller sphere's)
     link_colour: Optional[Union[Colour, str]]  # Colour of these sticks, or a column that colours them (their spheres')
+    link_dashes: Optional[bool]  # Draw these sticks as dashes
 
 
 class FilmOptions(RenderOptions, total=False):

@@ -74,6 +74,8 @@ struct Picture {
 
 Input input_of(const Spheres& spheres, const PictureRequest& options, const Style& style) {
   refuse_settings_of_files(options.input);
+  if (options.picture.has("trail"))
+    fail_setting("trail", " needs the frames before, and these spheres are in memory", "give the path of their file");
   if (spheres.file.spheres.empty()) fail({"there are no spheres to draw", "", 0, 0, "a picture needs at least one"});
   SphereFile file = spheres.file;
   if (!options.input.reading.options().periodic && file.spheres.cell()) file.spheres.cell()->periodic = {};

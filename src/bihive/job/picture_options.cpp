@@ -531,6 +531,14 @@ void add_link_options(Rows& rows) {
        &Links::radius);
   text("link_colour", "COLOUR|COLUMN[:MAP][:MIN,MAX]",
        "Colour of these sticks, or a column that colours them (their spheres')", &Links::colour);
+  rows.push_back({.id = "link_dashes",
+                  .help = "Draw these sticks as dashes",
+                  .theme = OptionTheme::spheres,
+                  .in_window = false,
+                  .take = [](PictureRequest& request, const std::string&) -> Status {
+                    request.links.dashed = true;
+                    return Done{};
+                  }});
 }
 
 Rows all_rows() {

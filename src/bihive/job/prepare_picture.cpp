@@ -16,6 +16,7 @@
 #include "bihive/io/frames.h"
 #include "bihive/job/choose_labels.h"
 #include "bihive/job/choose_look.h"
+#include "bihive/job/choose_sticks.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/floor.h"
 #include "bihive/job/messages.h"
@@ -26,15 +27,11 @@
 #include "bihive/render/memory.h"
 #include "bihive/render/renderer.h"
 #include "bihive/render/stereo.h"
-#include "bihive/scene/arrows.h"
-#include "bihive/scene/bonds.h"
 #include "bihive/scene/cavities.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/legend.h"
-#include "bihive/scene/links.h"
 #include "bihive/scene/show_density.h"
 #include "bihive/scene/title_text.h"
-#include "bihive/scene/traces.h"
 #include "bihive/settings/check_picture.h"
 #include "bihive/settings/picture_report.h"
 
@@ -143,48 +140,6 @@ RenderSettings apply_options(const PictureRequest& request, Input& input, const 
   return settings;
 }
 
-// The sticks that scene and user ask for.
-Sticks choose_sticks(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
-  PictureSettings picture = scene.picture;
-  request.picture.apply_to(picture);
-  const bool any = picture.sticks.bonds != Bonds::none;
-  for (const char* const id : {"bond_reach", "stick_radius", "ball_scale"})
-    if (!any && request.picture.has(id))
-      fail_setting(id, " is for pictures with bonds, and this one has none", "add " + setting_name("bonds") + " auto");
-  if (picture.sticks.bonds == Bonds::file && request.picture.has("bond_reach"))
-    fail_setting("bond_reach", " is for bonds by distance", "add " + setting_name("bonds") + " auto");
-  if (any && whole != nullptr)
-    fail_setting("bonds", " are not found between spheres that are distributed over ranks",
-                 "add " + setting_name("bonds") + " none");
-  return picture.sticks;
-}
-
-constexpr const char* kOfArrows[] = {"arrow_select", "arrow_scale", "arrow_radius", "arrow_pivot", "arrow_colour"};
-
-constexpr const char* kOfTraces[] = {"trace_select", "trace_radius", "trace_atoms"};
-
-// The tubes that scene and user ask for.
-Traces choose_traces(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
-  PictureSettings picture = scene.picture;
-  request.picture.apply_to(picture);
-  Traces& traces = picture.traces;
-  for (const char* const id : kOfTraces)
-    if (!traces.any() && request.picture.has(id))
-      fail_setting(id, " is for pictures with tubes, and this one has none", "add " + setting_name("trace") + " chain");
-  if (traces.any() && whole != nullptr)
-    fail_setting("trace", ": no tubes are drawn through spheres that are distributed over ranks",
-                 "leave " + setting_name("trace") + " out");
-  return traces;
-}
-
-  if (settings.opacity_rule == OpacityRule::as_one && lets_light_through(scene))
-    refuse("overlapping spheres as one", "with " + setting_name("opacity_rule") + " first");
-void draw_traces(const Traces& traces, Scene& scene) {
-  const Result<AddedTraces> added = add_traces(scene, traces);
-  if (!added) fail_usage(added.error().message, added.error().hint);
-  if (added->tubes == 0) warn("there is no tube: no two beads in a row are near each other");
-}
-
 // The probe of the cavities that scene and user ask for; infinite: none.
 double choose_cavities(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
   PictureSettings picture = scene.picture;
@@ -205,88 +160,9 @@ void draw_cavities(double probe, const PictureRequest& request, bool is_of_film,
     warn(fmt::format("there is no cavity for a probe of radius {}, and nothing to be seen", probe));
 }
 
-// The arrows that scene and user ask for.
-Arrows choose_arrows(const PictureRequest& request, const Scene& scene, const WholeSet* whole) {
-  PictureSettings picture = scene.picture;
-  request.picture.apply_to(picture);
-  Arrows& arrows = picture.arrows;
-  for (const char* const id : kOfArrows)
-    if (!arrows.any() && request.picture.has(id))
-      fail_setting(id, " is for pictures with arrows, and this one has none",
-                   "add " + setting_name("arrows") + " VX,VY,VZ");
-  if (arrows.any() && whole != nullptr)
-    fail_setting("arrows", " are not drawn on spheres that are distributed over ranks",
-                 "leave " + setting_name("arrows") + " out");
-  return arrows;
-}
-
-// Pictures of one film would have different ranges.
-void check_fixed_range(const char* setting, const std::string& text, const Scene& scene) {
-  const Result<ColourBy> asked_for = colour_by_from_text(text);
-  if (!asked_for || asked_for->range) return;
-  for (const ColourBy& how : scene.sticks_coloured_by)
-    if (how.attribute == asked_for->attribute && how.range)
-      fail_setting(setting, " has another range in each picture of a film",
-                   "add one: " + asked_for->attribute + ":" + "MIN,MAX");
-}
-
-void draw_arrows(const Arrows& arrows, bool is_of_film, Scene& scene) {
-  const Result<AddedArrows> done = add_arrows(scene, arrows);
-  if (!done) fail_usage(done.error().message, done.error().hint);
-  const AddedArrows& added = *done;
-  if (is_of_film) check_fixed_range("arrow_colour", arrows.colour, scene);
-  if (is_of_film) return;
-  if (added.count == 0)
-    warn("no sphere has an arrow: " +
-         std::string(added.unknown > 0 ? "their vectors are unknown" : "all vectors are 0"));
-  else if (added.unknown > 0)
-    warn(fmt::format("{} sphere{} no arrow: the vector is unknown", added.unknown,
-                     added.unknown == 1 ? " has" : "s have"));
-  if (added.count > 0 && added.inside == added.count)
-    warn(
-        fmt::format("all arrows end inside their spheres, the longest {:.3g} from its tail in one of radius {:.3g}: "
-                    "{} F makes them longer",
-                    added.longest, added.radius_of_longest, setting_name("arrow_scale")));
-}
-
-constexpr const char* kOfLinks[] = {"link_radius", "link_colour"};
-
-// Refuses what is stated about links where there are none.
-void check_links(const PictureRequest& request) {
-  const Links& links = request.links;
-  const std::string* const stated[] = {&links.radius, &links.colour};
-  for (std::size_t i = 0; i < std::size(kOfLinks); ++i)
-    if (!links.any() && !stated[i]->empty())
-      fail_setting(kOfLinks[i], " is for pictures with links, and this one has none",
-                   "add " + setting_name("links") + " FILE");
-}
-
-void draw_links(const Links& links, bool is_of_film, Scene& scene) {
-  const LinkTable table = value_or_fail(links_from_csv(value_or_fail(read_file(links.file)), links.file));
-  const Result<AddedLinks> added = add_links(scene, table, links);
-  if (!added) fail_usage(added.error().message, added.error().hint);
-  if (is_of_film) return check_fixed_range("link_colour", links.colour, scene);
-  if (added->count == 0)
-  if (whole != nullptr && settings.opacity_rule == OpacityRule::as_one)
-    fail_setting("opacity_rule", " as_one needs all spheres in one place, and they are distributed over ranks",
-                 "add " + setting_name("opacity_rule") + " first");
-    warn("there is no link: " + std::string(table.pairs.empty()  ? "the table has no rows"
-                                            : added->unknown > 0 ? "their radii are unknown"
-                                                                 : "radii are 0, or a sphere of each is hidden"));
-  else if (added->unknown > 0)
-    warn(fmt::format("{} link{} not drawn: the radius is unknown", added->unknown,
-                     added->unknown == 1 ? " is" : "s are"));
-}
-
-void done_or_fail_bonds(const Status& status) {
-  if (!status)
-    fail_setting("bonds", ": " + status.error().message,
-                 status.error().hint.empty() ? "add " + setting_name("bonds") + " none" : status.error().hint);
-}
-
 std::string without_sticks() {
   return "with " + setting_name("bonds") + " none, without " + setting_name("arrows") + ", " + setting_name("trace") +
-         " and " + setting_name("links");
+         ", " + setting_name("links") + ", " + setting_name("trail") + " and " + setting_name("hbonds");
 }
 
 // Refuses what the GPU cannot draw.
@@ -301,6 +177,8 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (scene.plane && scene.plane->shadows_only)
     refuse("floors of shadows", "with a colour of " + setting_name("floor"));
   if (!scene.sticks.empty()) refuse("bonds, arrows, tubes and links", without_sticks());
+  if (settings.opacity_rule == OpacityRule::as_one && lets_light_through(scene))
+    refuse("overlapping spheres as one", "with " + setting_name("opacity_rule") + " first");
   if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
   if (scene.cavity_walls != nullptr) refuse("walls of cavities", "without " + setting_name("show_cavities"));
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
@@ -371,8 +249,8 @@ RenderEngine choose_engine(const PictureRequest& request) {
   return engine;
 }
 
-RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engine, Input& input,
-                               const WholeSet* whole) {
+RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engine, Input& input, const WholeSet* whole,
+                               const FrameSource* frames) {
   if (request.tune) check_tune(request, engine);
   PictureSettings& picture = input.scene.picture;
   if (const SettingValue* const transfer = request.picture.find("transfer"))
@@ -382,19 +260,11 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
     if (const Status status = move_spheres(input.scene.spheres, *request.fixed->motion); !status) fail(status.error());
   if (is_of_film && request.fixed->density && input.density) show_density(input, request.fixed->density);
   const CameraSelections selections = is_of_film ? CameraSelections() : CameraSelections(request, input.scene.spheres);
-  const Sticks sticks = choose_sticks(request, input.scene, whole);
-  const bool has_bonds = sticks.bonds != Bonds::none;
+  const ChosenSticks sticks = choose_sticks(request, input.scene, whole);
   const double cavity_probe = choose_cavities(request, input.scene, whole);
-  const Arrows arrows = choose_arrows(request, input.scene, whole);
-  const Traces traces = choose_traces(request, input.scene, whole);
-  check_links(request);
-  if (has_bonds) done_or_fail_bonds(scale_balls(input.scene, sticks));
+  scale_balls(sticks, input.scene);
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
-  if (has_bonds) done_or_fail_bonds(find_bonds(input.scene, sticks, static_cast<int>(request.threads)));
-  if (has_bonds && input.scene.sticks.empty()) warn("no two atoms are near enough for a bond");
-  if (arrows.any()) draw_arrows(arrows, is_of_film, input.scene);
-  if (traces.any()) draw_traces(traces, input.scene);
-  if (request.links.any()) draw_links(request.links, is_of_film, input.scene);
+  draw_sticks(sticks, request, frames, input);
   const bool has_cavities = std::isfinite(cavity_probe);
   if (has_cavities) draw_cavities(cavity_probe, request, is_of_film, input.scene);
   RenderSettings settings = apply_options(request, input, selections, whole);
@@ -412,6 +282,9 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
                  "draw it " + without_sticks());
   if (input.scene.spheres.has_images() && has_clips(input.scene))
     fail_setting("clip", " does not cut the copies of " + setting_name("replicate"), "leave one of them out");
+  if (whole != nullptr && settings.opacity_rule == OpacityRule::as_one)
+    fail_setting("opacity_rule", " as_one needs all spheres in one place, and they are distributed over ranks",
+                 "add " + setting_name("opacity_rule") + " first");
   if (is_gpu(engine)) refuse_on_gpu(engine, input.scene, settings);
   if (whole == nullptr) {
     if (const std::string shared = shared_colours(input.scene); !shared.empty()) warn(shared);

@@ -14,15 +14,17 @@
 
 namespace bihive {
 
+class FrameSource;
+
 /// Fails with kBadUsage if the engine cannot draw the view.
 RenderEngine choose_engine(const PictureRequest& request);
 
 /// Applies the looks to an input that load_input() has loaded with LooksOfFile::keep, and the user's options to its
 /// scene: transfer curve, background, camera, light. Returns the scene's own settings with the user's options;
 /// request.fixed replaces the camera and the ranges of colours. Fails if options contradict each other or do not fit
-/// the input. `whole`: null if the input has all spheres.
+/// the input. `whole`: null if the input has all spheres. `frames`: of the input, for trails; null: they are opened.
 RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engine, Input& input,
-                               const WholeSet* whole = nullptr);
+                               const WholeSet* whole = nullptr, const FrameSource* frames = nullptr);
 
 /// Fails with kBadInput if the picture or its tree surely does not fit the memory.
 void check_memory_of(RenderEngine engine, const Input& input, const PictureRequest& request,

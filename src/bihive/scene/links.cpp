@@ -10,6 +10,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/geometry/lattice.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/scene/pair_line.h"
 #include "bihive/scene/stick_colours.h"
 
 namespace bihive {
@@ -232,26 +233,15 @@ Result<AddedLinks> add_links(Scene& scene, const LinkTable& table, const Links& 
       return fault(of_row + " joins sphere " + std::to_string(one) + " with itself", "");
     if (a == kNothing || b == kNothing) continue;
 
-    // Halves, which meet in the middle; the second is moved back where it belongs to an image.
-    const Vec3d from = spheres.local_centre(a), to = spheres.local_centre(b);
-    if (table.images.empty() && lattice) image = nearest_image(from, to, *lattice);
-    const Vec3d shift = lattice ? lattice->shift(image) : Vec3d{};
-    const Vec3d middle = 0.5 * (from + (to + shift));
+    if (table.images.empty() && lattice)
+      image = nearest_image(spheres.local_centre(a), spheres.local_centre(b), *lattice);
     double radius = (*radii)[row];
     if (std::isinf(radius)) radius = kRadiusOfLinks * std::min(spheres.radius(a), spheres.radius(b));
     if (std::isnan(radius)) ++added.unknown;
     if (!(radius > 0)) continue;
-    OwnStick half;
-    half.radius_a = half.radius_b = radius;
-    if (!colours.empty()) half.colour = colours[row];
-    half.a = from;
-    half.b = middle;
-    half.sphere = static_cast<std::int32_t>(a);
-    sticks.push_back(half);
-    half.a = middle - shift;
-    half.b = to;
-    half.sphere = static_cast<std::int32_t>(b);
-    sticks.push_back(half);
+    PairLine line{static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), image, radius, {}, links.dashed};
+    if (!colours.empty()) line.colour = colours[row];
+    add_pair_line(spheres, lattice, line, sticks);
     ++added.count;
   }
   if (Status status = scene.sticks.add(spheres, sticks); !status) return error_of_setting("links", status.error());

@@ -407,7 +407,8 @@ class Extraction {
       if (options.columns.empty()) options.columns = value.at("columns").get<ColumnChoice>();
     }
     take_cell(options);
-    if (options.frame == 0) options.frame = value.value("frame", std::int64_t{0});
+    loaded_.stated_frame = value.value("frame", std::int64_t{0});
+    if (options.frame == 0) options.frame = loaded_.stated_frame;
 
     const std::string path = beside(value.at("file").get<std::string>());
     loaded_.files.push_back(data_path(path).file);

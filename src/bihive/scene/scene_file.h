@@ -27,6 +27,7 @@ struct LoadedScene {
   LightRig rig;
   std::string format = "scene file";    ///< or "built-in", or a sphere file's format (scene/load_scene.h)
   std::int64_t frames = 1;              ///< frames or models in the document's sphere file
+  std::int64_t stated_frame = 0;        ///< that the document names, as ReadOptions::frame, which goes first unless 0
   std::optional<double> time_ps;        ///< of the frame, if its file states it
   std::optional<std::int64_t> step;     ///< of the simulation, if its file states it
   std::vector<std::string> assemblies;  ///< of its sphere file: as SphereFile::assemblies

@@ -11,6 +11,7 @@ struct Links {
                        ///< smaller sphere's
   std::string
       colour;  ///< a colour, or a column as colour_by_from_text() takes an attribute; empty: half by half the spheres'
+  bool dashed = false;  ///< dashes instead of whole sticks (scene/pair_line.h)
 
   bool any() const { return !file.empty(); }
 };

@@ -8,12 +8,14 @@
 #include "bihive/image/transfer.h"
 #include "bihive/settings/ambient_occlusion.h"
 #include "bihive/settings/arrows.h"
+#include "bihive/settings/hydrogen_bonds.h"
 #include "bihive/settings/labels.h"
 #include "bihive/settings/opacity_rule.h"
 #include "bihive/settings/picture_effects.h"
 #include "bihive/settings/stereo.h"
 #include "bihive/settings/sticks.h"
 #include "bihive/settings/traces.h"
+#include "bihive/settings/trails.h"
 
 namespace bihive {
 
@@ -46,9 +48,11 @@ struct PictureSettings {
   int light_points = 8;  ///< shadow rays per light with a radius and sample; 1 to kMostLightPoints
   std::optional<Outline> outline;
   std::optional<Fog> fog;
-  Sticks sticks;  ///< for find_bonds() (scene/bonds.h), before a picture is drawn
-  Arrows arrows;  ///< for add_arrows() (scene/arrows.h), after that
-  Traces traces;  ///< for add_traces() (scene/traces.h), last
+  Sticks sticks;                 ///< for find_bonds() (scene/bonds.h), before a picture is drawn
+  Arrows arrows;                 ///< for add_arrows() (scene/arrows.h), after that
+  Traces traces;                 ///< for add_traces() (scene/traces.h), last
+  Trails trails;                 ///< for add_trails() (scene/trails.h), with the spheres of earlier frames
+  HydrogenBonds hydrogen_bonds;  ///< for add_hydrogen_bonds() (scene/hydrogen_bonds.h)
   /// The radius of the probe for show_cavities() (scene/cavities.h), world units, at least 0; infinite: whole spheres
   /// are drawn.
   double cavity_probe = std::numeric_limits<double>::infinity();

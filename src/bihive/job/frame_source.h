@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +13,7 @@
 #include "bihive/job/input.h"
 #include "bihive/scene/style.h"
 
-namespace bihive::cli {
+namespace bihive {
 
 class FrameSource {
  public:
@@ -28,8 +30,18 @@ class FrameSource {
   /// have no spheres. Any number of threads may load at a time. Fails with kBadInput.
   Input load(std::int64_t frame, const Style& style) const;
 
+  /// The spheres of the `count` frames before this one, the oldest first; fewer where the file begins. They are kept
+  /// for the next call, whose frame is often the next. Threads as load(). Fails with kBadInput.
+  std::vector<std::shared_ptr<const SphereSet>> before(std::int64_t frame, std::int64_t count) const;
+
  private:
   FrameSource() = default;
+
+  // Spheres of frames that were asked for.
+  struct Kept {
+    std::mutex mutex;
+    std::map<std::int64_t, std::shared_ptr<const SphereSet>> spheres;
+  };
 
   InputOptions options_;
   bool asked_for_ = false;    // the style
@@ -37,6 +49,7 @@ class FrameSource {
   std::shared_ptr<const Frames> frames_;
   std::int64_t count_ = 1;
   std::vector<std::string> files_;
+  std::shared_ptr<Kept> kept_ = std::make_shared<Kept>();
 };
 
-}  // namespace bihive::cli
+}  // namespace bihive

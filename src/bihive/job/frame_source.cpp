@@ -1,12 +1,12 @@
-#include "film/frame_source.h"
+#include "bihive/job/frame_source.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "bihive/base/write_file.h"
 #include "bihive/job/failure.h"
-#include "support/outputs.h"
+#include "bihive/scene/load_scene.h"
 
-namespace bihive::cli {
+namespace bihive {
 
 FrameSource FrameSource::open(const InputOptions& options, const Style& style, bool asked_for) {
   check_input_options(options);
@@ -41,11 +41,27 @@ Input FrameSource::load(std::int64_t frame, const Style& style) const {
     add_trajectory(options_, input);
     return input;
   }
+  // Counted from the end where there are several: 0 would be the frame that a document names.
   ReadOptions reading = options_.reading.options();
-  reading.frame = frame;
+  reading.frame = count_ > 1 ? frame - count_ : frame;
   const Style* const wanted = asked_for_ || !looks_like_scene(bytes_) ? &style : nullptr;
   return value_or_fail(options_.input == "demo" ? built_in_scene("demo", {}, reading, &style)
                                                 : load_scene(bytes_, name_, reading, LooksOfFile::keep, wanted));
 }
 
-}  // namespace bihive::cli
+std::vector<std::shared_ptr<const SphereSet>> FrameSource::before(std::int64_t frame, std::int64_t count) const {
+  const std::int64_t first = std::max<std::int64_t>(frame - count, 0);
+  const std::lock_guard<std::mutex> lock(kept_->mutex);
+  auto& spheres = kept_->spheres;
+  spheres.erase(spheres.begin(), spheres.lower_bound(first));
+  spheres.erase(spheres.lower_bound(frame), spheres.end());
+  std::vector<std::shared_ptr<const SphereSet>> found;
+  for (std::int64_t k = first; k < frame; ++k) {
+    std::shared_ptr<const SphereSet>& one = spheres[k];
+    if (one == nullptr) one = std::make_shared<const SphereSet>(load(k, Style()).scene.spheres);
+    found.push_back(one);
+  }
+  return found;
+}
+
+}  // namespace bihive
