@@ -109,6 +109,30 @@ BIHIVE_API int bihive_closest(const bihive_tree* tree, const bihive_rays* rays, 
 /* hidden[i] is 1 if ray i hits anything, else 0. */
 BIHIVE_API int bihive_occluded(const bihive_tree* tree, const bihive_rays* rays, int threads, uint8_t* hidden);
 
+/* ---- Rays on spheres and sticks ---- */
+
+/* A stick is all balls between two ends, whose centres and radii change evenly from one to the other: a capsule, or a
+ * cone with round ends (docs/precision.md). */
+typedef struct bihive_bodies bihive_bodies;
+
+enum { BIHIVE_NOTHING = 0, BIHIVE_SPHERE = 1, BIHIVE_STICK = 2 };
+
+/* Copies at least one sphere and `sticks` sticks, and builds their trees. ends: of each stick x, y, z of the first end,
+ * then of the second; end_radii: two for each, one of which may be 0. Numbers are rounded as those of
+ * bihive_tree_new(). Failures: as there, for sticks too; a stick whose radii are both 0. */
+BIHIVE_API int bihive_bodies_new(const double* xyz, const double* radii, int64_t spheres, const double* ends,
+                                 const double* end_radii, int64_t sticks, int threads, bihive_bodies** bodies);
+BIHIVE_API void bihive_bodies_free(bihive_bodies* bodies);
+
+/* The nearest hit: t (infinity: none), its kind, the number of the sphere or of the stick (-1: none), and along: on a
+ * stick the position along its axis, 0 at the first end and 1 at the second, else 0. Of equal t a sphere counts before
+ * a stick, then the smaller number. `leaves` of the rays are spheres. */
+BIHIVE_API int bihive_bodies_closest(const bihive_bodies* bodies, const bihive_rays* rays, int threads, double* t,
+                                     uint8_t* kinds, int64_t* ids, double* along);
+/* hidden[i] is 1 if ray i hits anything, else 0. */
+BIHIVE_API int bihive_bodies_occluded(const bihive_bodies* bodies, const bihive_rays* rays, int threads,
+                                      uint8_t* hidden);
+
 /* ---- Points ---- */
 
 /* The end point of a distance: a sphere's surface (negative inside), or its centre. */

@@ -445,12 +445,56 @@ static void test_pictures(void) {
   bihive_scene_free(NULL);
 }
 
+/* A sphere at 0, one at 4, and between them a stick; then a cone along z with its point at 9. */
+static void test_bodies(void) {
+  const double places[] = {0, 0, 0, 4, 0, 0}, radii[] = {1, 1};
+  const double ends[] = {0, 0, 0, 4, 0, 0, 20, 0, 0, 20, 0, 9}, end_radii[] = {0.25, 0.25, 1, 0};
+  const float origins[] = {2, 9, 0, 0, 9, 0, 20, 9, 3, 2, 9, 5, 3, 9, 0};
+  const float directions[] = {0, -1, 0, 0, -1, 0, 0, -1, 0, 0, -1, 0, 0, -1, 0};
+  const double t_max[] = {100, 100, 100, 100, 8};
+  bihive_rays rays = {5, NULL, NULL, NULL, NULL, NULL, NULL, NULL};
+  bihive_bodies* bodies = NULL;
+  double t[5], along[5];
+  uint8_t kinds[5], hidden[5];
+  int64_t ids[5];
+  rays.origins = origins;
+  rays.directions = directions;
+  rays.t_max = t_max;
+  EXPECT(bihive_bodies_new(places, radii, 2, ends, end_radii, 2, 1, &bodies) == 0);
+  EXPECT(bihive_bodies_closest(bodies, &rays, 1, t, kinds, ids, along) == 0);
+  EXPECT(kinds[0] == BIHIVE_STICK && ids[0] == 0 && t[0] == 8.75 && along[0] == 0.5);
+  EXPECT(kinds[1] == BIHIVE_SPHERE && ids[1] == 0 && t[1] == 8 && along[1] == 0);
+  EXPECT(kinds[2] == BIHIVE_STICK && ids[2] == 1 && fabs(along[2] - 0.325) < 1e-9);
+  EXPECT(fabs(t[2] - (9 - sqrt(0.45))) < 1e-9);
+  EXPECT(kinds[3] == BIHIVE_NOTHING && ids[3] == -1 && isinf(t[3]));
+  EXPECT(kinds[4] == BIHIVE_NOTHING && ids[4] == -1); /* it ends before */
+  EXPECT(bihive_bodies_occluded(bodies, &rays, 0, hidden) == 0);
+  EXPECT(hidden[0] == 1 && hidden[1] == 1 && hidden[2] == 1 && hidden[3] == 0 && hidden[4] == 0);
+  EXPECT_ERROR(bihive_bodies_closest(bodies, &rays, 1, t, NULL, ids, along), "no place");
+  EXPECT_ERROR(bihive_bodies_occluded(bodies, NULL, 1, hidden), "NULL");
+  bihive_bodies_free(bodies);
+  bihive_bodies_free(NULL);
+
+  EXPECT_ERROR(bihive_bodies_new(places, radii, 0, ends, end_radii, 2, 1, &bodies), "at least one sphere");
+  EXPECT(bodies == NULL);
+  EXPECT_ERROR(bihive_bodies_new(places, radii, 2, NULL, end_radii, 2, 1, &bodies), "NULL");
+  {
+    const double no_radii[] = {0, 0, 1, 0};
+    EXPECT_ERROR(bihive_bodies_new(places, radii, 2, ends, no_radii, 2, 1, &bodies), "radius above 0");
+  }
+  EXPECT(bihive_bodies_new(places, radii, 2, NULL, NULL, 0, 1, &bodies) == 0);
+  EXPECT(bihive_bodies_closest(bodies, &rays, 1, t, kinds, ids, along) == 0);
+  EXPECT(kinds[0] == BIHIVE_NOTHING && kinds[1] == BIHIVE_SPHERE);
+  bihive_bodies_free(bodies);
+}
+
 int main(int argc, char** argv) {
   EXPECT(strcmp(bihive_error_text(), "") == 0);
   test_trees();
   test_update();
   test_far_spheres();
   test_cells();
+  test_bodies();
   test_pictures();
   /* The picture of a file, for comparison with that of `bihive render`: c_library FILE STYLE OUT [NAME VALUE]..., raw
    * RGBA. */

@@ -10,6 +10,7 @@ Spheres, read       spheres of arrays, of a file; Spheres.save, convert: into a 
 render, film        pictures and films of them; Orthographic, Perspective, Look, Style determine their appearance
 verify, again       a PNG of a picture drawn again and compared, or with changes
 Tree                hits of rays, spheres near points, pairs of spheres
+BodyTree, Sticks    hits of rays on spheres and sticks
 view                the page in a browser, with spheres from memory
 select, stats       spheres that match an expression; statistics of the trees
 distance            between centres of spheres; angle, dihedral
@@ -20,6 +21,7 @@ Error               the base of all exceptions of this package
 """
 
 from ._bihive import __version__
+from ._bodies import BodyHits, BodyTree, Sticks
 from ._camera import Look, Orthographic, Perspective, Style
 from ._colours import linear
 from ._compare import compare
@@ -36,6 +38,8 @@ from ._union_measures import Contacts, Measures, buried_area, contacts, measure,
 from ._view import Page, View, page, save_page, view
 
 __all__ = [
+    "BodyHits",
+    "BodyTree",
     "ClosestHits",
     "Contacts",
     "Error",
@@ -54,6 +58,7 @@ __all__ = [
     "Perspective",
     "Picture",
     "Spheres",
+    "Sticks",
     "Style",
     "Tree",
     "UsageError",

@@ -27,7 +27,9 @@ __all__ = ["Tree"]
 
 Array = np.ndarray[Any, Any]
 Shape = tuple[int, ...]
-# Origins, directions, t_min, t_max, leaves, inside.
+# Origins, directions, t_min, t_max.
+Segments = tuple[Array, Array, Optional[Array], Optional[Array]]
+# The same, leaves, inside.
 Rays = tuple[Array, Array, Optional[Array], Optional[Array], Optional[Array], Optional[Array]]
 _ENDS = ("surface", "centre")  # of a distance
 _FLOAT64 = np.dtype(np.float64)  # this machine's byte order: one object
@@ -186,7 +188,7 @@ class Tree:
                 origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, order=order
             )
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
-        images, in_blocks = self._images(periodic), _in_blocks(order)
+        images, in_blocks = self._images(periodic), in_blocks_of(order)
         own = self._own_of_rays(exclude, shape)
         core = self._core
         try:
@@ -218,7 +220,7 @@ class Tree:
             return self._counting(mask).occluded(
                 origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, periodic=periodic, exclude=exclude, order=order
             )
-        images, in_blocks = self._images(periodic), _in_blocks(order)
+        images, in_blocks = self._images(periodic), in_blocks_of(order)
         if exclude is not None and not images:
             hits = self.closest(origins, directions, t_min=t_min, t_max=t_max, leaves=leaves, inside=inside, exclude=exclude, order=order)
             return np.asarray(hits.id >= 0)[()]
@@ -447,17 +449,7 @@ class Tree:
         self, origins: Any, directions: Any, t_min: Any, t_max: Any, leaves: Any, inside: Any
     ) -> tuple[Rays, Shape]:
         """The rays one after the other, and their shape."""
-        origin = vectors("origins", origins)
-        direction = vectors("directions", directions)
-        shape = origin.shape[:-1]
-        if direction.shape != origin.shape:  # it takes longer than a ray
-            try:
-                shape = np.broadcast_shapes(shape, direction.shape[:-1])
-            except ValueError:
-                raise bad_argument(
-                    "directions", f"expected as many as origins, found shapes {origin.shape} and {direction.shape}"
-                ) from None
-            origin, direction = (np.broadcast_to(one, (*shape, 3)) for one in (origin, direction))
+        rays, shape = segments_of(origins, directions, t_min, t_max)
         left = None
         if leaves is not None:
             given = whole_numbers("leaves", leaves, None, -2, max(len(self._spheres) - 1, 0))
@@ -465,15 +457,29 @@ class Tree:
         into = None
         if inside is not None:
             into = np.ascontiguousarray(in_a_row("inside", numbers("inside", inside), shape) != 0).view(np.uint8)
-        rays = (
-            origin.reshape(-1, 3),
-            direction.reshape(-1, 3),
-            None if t_min is None else in_a_row("t_min", numbers("t_min", t_min), shape),
-            None if t_max is None else in_a_row("t_max", numbers("t_max", t_max), shape),
-            left,
-            into,
-        )
-        return rays, shape
+        return (*rays, left, into), shape
+
+
+def segments_of(origins: Any, directions: Any, t_min: Any, t_max: Any) -> tuple[Segments, Shape]:
+    """Rays that leave nothing, one after the other, and their shape."""
+    origin = vectors("origins", origins)
+    direction = vectors("directions", directions)
+    shape = origin.shape[:-1]
+    if direction.shape != origin.shape:  # it takes longer than a ray
+        try:
+            shape = np.broadcast_shapes(shape, direction.shape[:-1])
+        except ValueError:
+            raise bad_argument(
+                "directions", f"expected as many as origins, found shapes {origin.shape} and {direction.shape}"
+            ) from None
+        origin, direction = (np.broadcast_to(one, (*shape, 3)) for one in (origin, direction))
+    segments = (
+        origin.reshape(-1, 3),
+        direction.reshape(-1, 3),
+        None if t_min is None else in_a_row("t_min", numbers("t_min", t_min), shape),
+        None if t_max is None else in_a_row("t_max", numbers("t_max", t_max), shape),
+    )
+    return segments, shape
 
 
 def _of_t_max(error: InputError) -> Error:
@@ -538,7 +544,7 @@ def _to_centre(to: str) -> bool:
     return to != "surface" if isinstance(to, str) and to in _ENDS else one_of("to", to, _ENDS) == "centre"
 
 
-def _in_blocks(order: str) -> bool:
+def in_blocks_of(order: str) -> bool:
     return one_of("order", order, ("any", "blocks")) == "blocks"
 
 

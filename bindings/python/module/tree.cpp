@@ -444,6 +444,7 @@ void bind_trees(py::module_& module) {
       .def("all_hits", every_hit)
       .def("surfaces", surfaces);
   bind_points(tree_class);
+  bind_bodies(module, tree_class);
   module.def("build_tree",
              [](const std::shared_ptr<Spheres>& spheres, const std::optional<std::vector<std::int64_t>>& part,
                 bool periodic, const std::vector<std::string>& words,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bihive/render/tracer.h"
+#include "bihive/scene/scene.h"
 #include "bihive/wide/periodic_images.h"
 #include "spheres.h"
 
@@ -17,6 +18,7 @@ struct RayTree {
   SharedSpheres spheres;
   std::optional<Tracer> tracer;
   std::optional<PeriodicImages> images;  ///< of a periodic set
+  std::shared_ptr<const Scene> scene;    ///< of a tree with sticks; null: there are none
   int threads = 0;
 };
 
@@ -24,6 +26,9 @@ using TreeClass = pybind11::class_<RayTree, std::shared_ptr<RayTree>>;
 
 /// Adds Tree to the module.
 void bind_trees(pybind11::module_& module);
+
+/// Adds trees of spheres and sticks to the module (bodies.cpp), after Tree.
+void bind_bodies(pybind11::module_& module, TreeClass& tree);
 
 /// Adds the queries about points to Tree (points.cpp).
 void bind_points(TreeClass& tree);
