@@ -94,6 +94,12 @@ class HydrogenBonds(ProgramTest):
         self.assertEqual(self.picture(*small, "--no-hbonds", of="s.json"), self.picture(*plain))
         self.assertNotEqual(self.picture(*plain, "--hbonds"), self.picture(*plain))
 
+    def test_a_style_may_state_them(self):
+        sticks = {"hbonds": True, "hbond_radius": 0.1, "arrows": "x,y,z", "arrow_scale": 0.5, "arrow_colour": "x:magma:0,3", "ball_scale": 0.1, "bonds": "distance"}
+        self.write("own.json", json.dumps({"bihive_style": 1, "picture": sticks}))
+        options = [f"--{name.replace('_', '-')}" if value is True else f"--{name.replace('_', '-')}={value}" for name, value in sticks.items()]
+        self.assertEqual(self.picture("--style", "own.json"), self.picture("--style", "plain", *options))
+
     def test_there_may_be_none(self):
         self.write("far.xyz", "2\n\nO 0 0 0\nO 9 0 0\n")
         done = self.run_bihive("render", "far.xyz", "-o", "a.png", *VIEW, "--hbonds")

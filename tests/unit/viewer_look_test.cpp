@@ -129,6 +129,59 @@ TEST(ViewerLook, sticks_are_picked_as_their_atoms_and_have_no_tree_view) {
   EXPECT_TRUE(viewer.scene().sticks.empty());
 }
 
+TEST(ViewerLook, the_user_chooses_sticks) {
+  Viewer viewer;
+  viewer.resize(kViewWidth, kViewHeight);
+  ASSERT_TRUE(viewer.load("5\n\nC 0 0 0\nO 1.4 0 0\nO 4.2 0 0\nH 3.25 0 0\nN 9 0 0\n", "five.xyz"));
+  const double radius = viewer.scene().spheres.radius(0);
+  const auto set = [&](const char* id, const SettingValue& value) {
+    ViewerSettings settings = viewer.settings();
+    settings.picture.user.set(id, value);
+    return viewer.set(settings);
+  };
+  ASSERT_TRUE(set("bonds", std::int64_t{1}));
+  EXPECT_EQ(viewer.scene().sticks.size(), 2);
+  ASSERT_TRUE(set("ball_scale", 0.5));
+  EXPECT_EQ(viewer.scene().spheres.radius(0), 0.5 * radius);
+  ASSERT_TRUE(set("hbonds", true));
+  EXPECT_GT(viewer.scene().sticks.size(), 4);
+  // An arrow along x, of a shaft and a head, at all atoms but the one at 0.
+  ASSERT_TRUE(set("hbonds", false));
+  ASSERT_TRUE(set("arrows", std::string("x*9,0*x,0*x")));
+  EXPECT_EQ(viewer.scene().sticks.size(), 2 + 4 * 2);
+  // What the spheres lack is refused, and nothing changes.
+  const Status refused = set("trace", std::int64_t{1});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("chain"));
+  EXPECT_EQ(viewer.scene().sticks.size(), 2 + 4 * 2);
+
+  // The look keeps them, other settings do not make them anew, and the next file has those of its own.
+  ViewerLook look;
+  look.background = "black";
+  ASSERT_TRUE(viewer.set_look(look));
+  EXPECT_EQ(viewer.scene().sticks.size(), 2 + 4 * 2);
+  ViewerSettings settings = viewer.settings();
+  settings.picture.user.reset("arrows");
+  settings.picture.user.reset("bonds");
+  settings.picture.user.reset("ball_scale");
+  ASSERT_TRUE(viewer.set(settings));
+  EXPECT_TRUE(viewer.scene().sticks.empty());
+  EXPECT_EQ(viewer.scene().spheres.radius(0), radius);
+  ASSERT_TRUE(set("bonds", std::int64_t{1}));
+  ASSERT_TRUE(viewer.load("1\n\nC 0 0 0\n", "one.xyz"));
+  EXPECT_TRUE(viewer.scene().sticks.empty());
+  EXPECT_FALSE(viewer.settings().picture.user.has("bonds"));
+}
+
+TEST(ViewerLook, the_scene_tells_what_is_not_drawn) {
+  Viewer viewer;
+  viewer.resize(kViewWidth, kViewHeight);
+  const std::string document =
+      R"({"bihive_scene": 2, "picture": {"trail": 3}, "spheres": [[0, 0, 0, 1], [3, 0, 0, 1]]})";
+  ASSERT_TRUE(viewer.load(document, "s.json"));
+  EXPECT_THAT(viewer.facts().warnings, testing::ElementsAre(HasSubstr("trails")));
+}
+
 TEST(ViewerLook, a_style_that_does_not_suit_the_next_file_is_dropped_with_a_warning) {
   Viewer viewer;
   viewer.resize(kViewWidth, kViewHeight);

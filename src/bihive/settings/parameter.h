@@ -48,6 +48,7 @@ struct Parameter {
   bool has_no_option = false;     ///< a flag: "--no-..." too
   bool in_window = true;          ///< available in window and page
   bool cpu_only = false;          ///< not drawn by the GPU
+  bool makes_sticks = false;      ///< of bonds, arrows, tubes and the like: they are made anew with the scene
   std::string_view implies = "";  ///< switched on by setting this one, unless set explicitly
   std::string_view value_name = "N";  ///< name of the value in --help
   std::string_view help = "";         ///< one sentence, without a full stop

@@ -11,7 +11,8 @@ Result<std::shared_ptr<PreparedFrame>> FrameMaker::make(SphereFile frame) const 
     const Choices& choices = *choices_;
     auto made = std::make_shared<PreparedFrame>(SceneInput::spheres(std::move(frame), choices.name), choices.version);
     Result<SceneInput::Looked> looked =
-        made->input.looked_at(choices.look, choices.settings.replicate, nullptr, {&choices.ranges, choices.floor});
+        made->input.looked_at(choices.look, choices.settings.replicate, choices.settings.picture.user, nullptr,
+                              {&choices.ranges, choices.floor});
     if (!looked) return looked.error();
     made->shown = std::make_unique<ShownScene>(std::move(looked->loaded));
     made->shown->trees = std::make_unique<SceneTrees>(made->shown->scene, tree_parameters(choices.settings));

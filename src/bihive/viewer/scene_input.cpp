@@ -9,6 +9,7 @@
 #include "bihive/scene/cavities.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/floor.h"
+#include "bihive/scene/hydrogen_bonds.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/traces.h"
@@ -128,6 +129,7 @@ SceneInput::SceneInput(Kind kind, LoadedScene loaded) : kind_(kind), loaded_(std
   facts_.has_cell = loaded_.scene.spheres.cell().has_value();
   facts_.copies = loaded_.scene.spheres.images().counts;
   facts_.has_elements = !loaded_.scene.spheres.attributes().element.empty();
+  if (loaded_.scene.picture.trails.any()) add_warning("the trails of this scene are not drawn here");
 }
 
 Result<SceneInput> SceneInput::built_in(const std::string& name, const ScenarioParameters& parameters,
@@ -245,8 +247,8 @@ Result<std::vector<std::int64_t>> SceneInput::do_looks(LoadedScene& loaded, cons
   return Error{"/looks/" + std::to_string(failed) + place + ": " + error.message, name_, 0, 0, error.hint};
 }
 
-Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row,
-                                                 const KeptOfFrame& kept) const {
+Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const Copies& copies, const Overrides& user,
+                                                 std::size_t* failed_row, const KeptOfFrame& kept) const {
   if (failed_row != nullptr) *failed_row = look.rows.size();
   if (!look.style.empty())
     if (const Result<Style> known = style_named(look.style); !known) return known.error();
@@ -259,18 +261,23 @@ Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const C
   if (Status status = light_up(looked.loaded, look.lights); !status) return status.error();
   if (!look.element_colours.empty())
     if (Status status = recolour(scene, look.element_colours); !status) return status.error();
-  const Sticks sticks = scene.picture.sticks;
+  PictureSettings picture = scene.picture;  // the scene keeps its own
+  user.apply_to(picture);
+  const Sticks sticks = picture.sticks;
   if (sticks.bonds != Bonds::none)
     if (Status status = scale_balls(scene, sticks); !status)
-      return look_error(status.error().message, "choose a style without bonds");
+      return look_error(status.error().message, "choose a style without bonds, or none");
   Result<std::vector<std::int64_t>> counts = do_looks(looked.loaded, look, failed_row, kept.ranges);
   if (!counts) return counts.error();
   if (sticks.bonds != Bonds::none)
     if (Status status = find_bonds(scene, sticks); !status) return status.error();
-  if (scene.picture.arrows.any())
-    if (const Result<AddedArrows> added = add_arrows(scene, scene.picture.arrows); !added) return added.error();
-  if (scene.picture.traces.any())
-    if (const Result<AddedTraces> added = add_traces(scene, scene.picture.traces); !added) return added.error();
+  if (picture.arrows.any())
+    if (const Result<AddedArrows> added = add_arrows(scene, picture.arrows); !added) return added.error();
+  if (picture.traces.any())
+    if (const Result<AddedTraces> added = add_traces(scene, picture.traces); !added) return added.error();
+  if (picture.hydrogen_bonds.any())
+    if (const Result<std::int64_t> added = add_hydrogen_bonds(scene, picture.hydrogen_bonds); !added)
+      return added.error();
   if (scene.picture.shows_cavities())
     if (const Result<ShownCavities> shown = show_cavities(scene, scene.picture.cavity_probe); !shown)
       return shown.error();

@@ -12,6 +12,7 @@
 
 #include "bihive/base/result.h"
 #include "bihive/scene/load_scene.h"
+#include "bihive/settings/overrides.h"
 #include "bihive/viewer/shown_scene.h"
 #include "bihive/viewer/viewer_look.h"
 
@@ -49,9 +50,10 @@ class SceneInput {
   /// As `bihive render` with these options makes it. Errors: no such style, colour or action, a style for a scene that
   /// takes none, a selection's (column as in select_spheres()), or that every sphere is hidden. `failed_row` (if given)
   /// is then the faulty row; look.rows.size() if none is. `copies`: along the vectors of the cell; unset: those of the
-  /// input. Error too if there is no cell, or if the scene has a plane beside which the look wants a floor.
-  Result<Looked> looked_at(const ViewerLook& look, const Copies& copies, std::size_t* failed_row = nullptr,
-                           const KeptOfFrame& kept = {}) const;
+  /// input. `user`: parameters of the picture, of which those of sticks count. Error too if there is no cell, if the
+  /// scene has a plane beside which the look wants a floor, or if the spheres have not what sticks need.
+  Result<Looked> looked_at(const ViewerLook& look, const Copies& copies, const Overrides& user,
+                           std::size_t* failed_row = nullptr, const KeptOfFrame& kept = {}) const;
 
  private:
   // spheres: a style determines the appearance. document: a scene file, read again for each style. own: takes no style.

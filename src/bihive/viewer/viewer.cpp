@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "bihive/base/check.h"
@@ -10,6 +11,7 @@
 #include "bihive/scene/clips.h"
 #include "bihive/scene/focus.h"
 #include "bihive/scene/wide_angle.h"
+#include "bihive/settings/parameter.h"
 #include "bihive/viewer/gpu_pictures.h"
 #include "bihive/viewer/orbit.h"
 #include "bihive/viewer/picture_steps.h"
@@ -21,6 +23,14 @@ namespace bihive {
 namespace {
 
 constexpr int kLargestSidePx = 16384;
+
+// Whether both ask for the same sticks.
+bool same_sticks(const LayeredSettings& a, const LayeredSettings& b) {
+  const std::span<const Parameter> parameters = picture_parameters();
+  return std::all_of(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
+    return !parameter.makes_sticks || a.value(parameter) == b.value(parameter);
+  });
+}
 
 Error bad_setting(const std::string& message, const std::string& hint = "") {
   return {message, "", 0, 0, hint};
@@ -37,11 +47,11 @@ class Viewer::Implementation {
     if (input->facts().spheres == 0) return bad_setting("the scene has no spheres");
     ViewerLook look;
     if (input->facts().is_file_of_spheres) look.style = look_.style;
-    Result<SceneInput::Looked> looked = input->looked_at(look, {});
+    Result<SceneInput::Looked> looked = input->looked_at(look, {}, {});
     if (!looked && !look.style.empty()) {
       // The style of the scene before may not suit these spheres.
       const std::string why = looked.error().message;
-      looked = input->looked_at({}, {});
+      looked = input->looked_at({}, {}, {});
       if (looked) input->add_warning("not in the style " + look.style + ": " + why);
       look.style.clear();
     }
@@ -96,7 +106,8 @@ class Viewer::Implementation {
   Result<std::vector<std::int64_t>> set_look(const ViewerLook& look, std::size_t* failed_row) {
     if (failed_row != nullptr) *failed_row = look.rows.size();
     if (!input_) return bad_setting("there is no scene yet");
-    Result<SceneInput::Looked> looked = input_->looked_at(look, settings_.replicate, failed_row);
+    Result<SceneInput::Looked> looked =
+        input_->looked_at(look, settings_.replicate, settings_.picture.user, failed_row);
     if (!looked) return looked.error();
     if (failed_row != nullptr) *failed_row = look.rows.size();
     ViewerSettings settings = settings_;
@@ -186,10 +197,10 @@ class Viewer::Implementation {
       if (settings.engine == ViewerEngine::gpu)
         if (Status status = check_gpu(settings); !status) return status;
     } else {
-      // Copies are other spheres.
+      // Copies are other spheres, and the user may ask for other sticks.
       std::unique_ptr<ShownScene> next;
-      if (settings.replicate != settings_.replicate) {
-        Result<SceneInput::Looked> looked = input_->looked_at(look_, settings.replicate);
+      if (settings.replicate != settings_.replicate || !same_sticks(settings.picture, settings_.picture)) {
+        Result<SceneInput::Looked> looked = input_->looked_at(look_, settings.replicate, settings.picture.user);
         if (!looked) return looked.error();
         next = std::make_unique<ShownScene>(std::move(looked->loaded));
       }
