@@ -23,7 +23,6 @@ class CutSet;
 class RayEngine;
 class RemoteEngine;
 class StickSet;
-struct UnionOfBodies;
 struct DepthSums;
 
 /// The colour that the light gets which goes straight through: white if all of it does, and the nearer to the hue of
@@ -131,7 +130,6 @@ class TransparentSpheres {
   std::vector<Vec3d> tints_;                           // empty: all are white
   std::vector<OpticalDepth> depths_;  // a row for each of these, 0 of those in a class; empty: they are remote
   std::vector<std::int8_t> classes_;  // empty: no sphere is in one, or they are remote
-  bool as_one_ = false;               // each class is a union
   const SphereSet* spheres_ = nullptr;
   const StickSet* sticks_ = nullptr;  // null: there are none
   std::shared_ptr<const CutSet> cuts_;
@@ -140,13 +138,22 @@ class TransparentSpheres {
   bool to_eye_ = false;               // where they are remote
   bool has_classes_ = false;          // the same
   std::shared_ptr<const RayEngine> opaque_, transparent_;
-  // The other transparent ones, a class each. `share`: of all its spheres; 0: they differ.
+  // The other transparent ones, a class each.
   struct Class {
-    std::shared_ptr<const RayEngine> engine;
-    double share = 0;
+    int number;
+    std::shared_ptr<const RayEngine> spheres;  // null: it has none
+    bool has_sticks;
+    double share;  // of all its bodies; 0: they differ
   };
-  UnionOfBodies union_of(const Class& one) const;
+  // The hits of rays on sticks in classes, of each class the first.
+  void find_sticks_of_classes(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
+  // Of each ray the first hit on a class. `of_sticks`: as found by find_sticks_of_classes().
+  void find_first(const Class& one, const RaySpan& rays, RayOrder order, const std::vector<RayHit>& of_sticks,
+                  HitBatch& hits) const;
+  void find_entries(const RaySpan& rays, RayOrder order, std::vector<RayHit>& entries) const;
   std::vector<Class> of_classes_;
+  std::shared_ptr<const RayEngine> sticks_of_classes_;  // one tree for all, because many may have few; null: no sticks
+  std::shared_ptr<const RayEngine> unions_;             // the bodies of all classes, each a union; null: they are not
 };
 
 /// The parts of a scene's set for one picture.

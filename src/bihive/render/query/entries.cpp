@@ -13,6 +13,7 @@ constexpr double kFarthest = std::numeric_limits<double>::infinity();
 struct Stay {
   double in, out;
   std::int64_t id;
+  int its_class = 0;
 };
 
 // The stays that begin with a hit, or where the ray starts.
@@ -54,6 +55,7 @@ class Stays {
 };
 
 bool is_before(const Stay& a, const Stay& b) {
+  if (a.its_class != b.its_class) return a.its_class < b.its_class;
   return a.in != b.in ? a.in < b.in : a.id < b.id;
 }
 
@@ -63,19 +65,19 @@ void add_entries(std::int64_t number, const Ray& ray, std::vector<Stay>& stays, 
   for (std::size_t i = 0; i < stays.size();) {
     const Stay& first = stays[i];
     Stay last = first;  // that ends last
-    for (++i; i < stays.size() && stays[i].in <= last.out; ++i)
+    for (++i; i < stays.size() && stays[i].its_class == first.its_class && stays[i].in <= last.out; ++i)
       if (stays[i].out > last.out || (stays[i].out == last.out && stays[i].id < last.id)) last = stays[i];
     const bool starts_inside = first.in == -kFarthest;
     const double t = starts_inside ? last.out : first.in;
-    if (t > ray.t_max) return;
-    entries.push_back({number, t, starts_inside ? last.id : first.id});
+    if (t <= ray.t_max) entries.push_back({number, t, starts_inside ? last.id : first.id});
   }
 }
 
 }  // namespace
 
 // Bodies may reach beyond the end of the segment, so rays go on there.
-void UnionOfBodies::find_entries(const RaySpan& rays, RayOrder order, std::vector<RayHit>& entries) const {
+void UnionOfBodies::find_entries(const RaySpan& rays, RayOrder order, const std::function<int(std::int64_t)>& class_of,
+                                 std::vector<RayHit>& entries) const {
   static thread_local std::vector<double> ends;
   static thread_local std::vector<RayHit> hits;
   static thread_local std::vector<Stay> stays;
@@ -95,6 +97,7 @@ void UnionOfBodies::find_entries(const RaySpan& rays, RayOrder order, std::vecto
     stays.clear();
     Stays all(*this, ray, stays);
     for (; i < hits.size() && hits[i].ray == number; ++i) all.add(hits[i]);
+    for (Stay& stay : stays) stay.its_class = class_of(stay.id);
     add_entries(number, ray, stays, entries);
   }
 }

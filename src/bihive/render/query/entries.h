@@ -1,6 +1,8 @@
-// Where rays enter the union of overlapping bodies: OpacityRule::as_one.
+// Where rays enter unions of overlapping bodies: OpacityRule::as_one.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "bihive/geometry/cut_sphere.h"
@@ -10,17 +12,19 @@
 
 namespace bihive {
 
-/// Spheres and sticks with an engine of some of them. All must outlive it.
+/// Spheres and sticks with an engine of some of them, in classes. All must outlive it.
 struct UnionOfBodies {
   const RayEngine* engine;
   const SphereSet* spheres;
   const StickSet* sticks;  ///< null: there are none
   const CutSet* cuts;      ///< null: all are whole
 
-  /// A ray may enter the union several times. Of each time the first body that it enters, at the t of all_hits(); if it
-  /// starts inside, where it exits the union, and the body that it exits last. Of equal t the smaller id. Hits in the
-  /// segment alone, in the order of all_hits(). Bodies that touch overlap.
-  void find_entries(const RaySpan& rays, RayOrder order, std::vector<RayHit>& entries) const;
+  /// The bodies of each class, by their ids, are a union, and a ray may enter it several times. Of each time the first
+  /// body that it enters, at the t of all_hits(); if it starts inside, where it exits the union, and the body that it
+  /// exits last. Of equal t the smaller id. Hits in the segment alone: by ray, then by class, then by t. Bodies that
+  /// touch overlap.
+  void find_entries(const RaySpan& rays, RayOrder order, const std::function<int(std::int64_t)>& class_of,
+                    std::vector<RayHit>& entries) const;
 };
 
 }  // namespace bihive

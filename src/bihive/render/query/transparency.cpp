@@ -9,6 +9,7 @@
 #include "bihive/base/watch.h"
 #include "bihive/geometry/cut_sphere.h"
 #include "bihive/render/query/build_engine.h"
+#include "bihive/render/query/empty_engine.h"
 #include "bihive/render/query/entries.h"
 #include "bihive/render/query/remote_rays.h"
 #include "bihive/render/query/stick_engine.h"
@@ -75,7 +76,6 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(con
     made->has_tints_ = !made->tints_.empty();
     made->of_images_ = more.of_images;
     made->classes_ = std::move(more.classes);
-    made->as_one_ = more.as_one;
     made->spheres_ = &spheres;
     made->sticks_ = more.sticks;
     made->cuts_ = more.cuts;
@@ -105,8 +105,10 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(con
       for (const std::int64_t half : {0, 1}) add_depths(made->all_spheres_ + 2 * stick + half);
     const auto built = [&](Bodies bodies,
                            const EngineParameters& parameters) -> Result<std::shared_ptr<const RayEngine>> {
+      // Many parts, such as those of trails that fade, have sticks alone.
       Result<std::shared_ptr<const RayEngine>> part =
-          build_engine(spheres, std::move(bodies.spheres), more.cuts, parameters);
+          bodies.spheres.empty() ? Result<std::shared_ptr<const RayEngine>>(std::make_shared<EmptyEngine>())
+                                 : build_engine(spheres, std::move(bodies.spheres), more.cuts, parameters);
       if (!part || bodies.sticks.empty()) return part;
       return Result<std::shared_ptr<const RayEngine>>(
           std::make_shared<StickEngine>(spheres, *more.sticks, std::move(bodies.sticks), std::move(*part), more.cuts));
@@ -119,12 +121,30 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(con
     part = built(std::move(transparent), of_tree);
     if (!part) return part.error();
     made->transparent_ = std::move(*part);
-    for (Bodies& bodies : of_class) {
+    Bodies in_classes;  // the sticks of all classes; with unions all bodies
+    for (int number = 0; number < kOpacityClasses; ++number) {
+      Bodies& bodies = of_class[static_cast<std::size_t>(number)];
       if (bodies.empty()) continue;
-      const double share = bodies.share.value_or(0);
-      part = built(std::move(bodies), of_tree);
+      in_classes.sticks.insert(in_classes.sticks.end(), bodies.sticks.begin(), bodies.sticks.end());
+      if (more.as_one) {
+        in_classes.spheres.insert(in_classes.spheres.end(), bodies.spheres.begin(), bodies.spheres.end());
+        continue;
+      }
+      Class one{number, nullptr, !bodies.sticks.empty(), bodies.share.value_or(0)};
+      if (!bodies.spheres.empty()) {
+        bodies.sticks.clear();
+        part = built(std::move(bodies), of_tree);
+        if (!part) return part.error();
+        one.spheres = std::move(*part);
+      }
+      made->of_classes_.push_back(std::move(one));
+    }
+    if (!in_classes.empty()) {
+      std::sort(in_classes.spheres.begin(), in_classes.spheres.end());
+      std::sort(in_classes.sticks.begin(), in_classes.sticks.end());
+      part = built(std::move(in_classes), of_tree);
       if (!part) return part.error();
-      made->of_classes_.push_back({std::move(*part), share});
+      (more.as_one ? made->unions_ : made->sticks_of_classes_) = std::move(*part);
     }
     return std::shared_ptr<const TransparentSpheres>(std::move(made));
   } catch (const Cancelled&) {
@@ -210,8 +230,35 @@ void TransparentSpheres::sum_of_hits(const RaySpan& rays, RayOrder order, const 
   }
 }
 
-UnionOfBodies TransparentSpheres::union_of(const Class& one) const {
-  return {one.engine.get(), spheres_, sticks_, cuts_.get()};
+void TransparentSpheres::find_sticks_of_classes(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
+  found.clear();
+  if (sticks_of_classes_ == nullptr) return;
+  sticks_of_classes_->all_hits(rays, order, found);
+  keep_first_of_classes(found);
+}
+
+void TransparentSpheres::find_first(const Class& one, const RaySpan& rays, RayOrder order,
+                                    const std::vector<RayHit>& of_sticks, HitBatch& hits) const {
+  hits.resize(rays.count);
+  if (one.spheres != nullptr)
+    one.spheres->closest_hits(rays, order, hits.span());
+  else
+    EmptyEngine().closest_hits(rays, order, hits.span());
+  if (!one.has_sticks) return;
+  for (const RayHit& hit : of_sticks) {
+    if (class_of(hit.sphere_id) != one.number) continue;
+    const auto i = static_cast<std::size_t>(hit.ray);
+    Hit first{hits.t[i], hits.sphere_id[i]};
+    first.keep_nearer(hit.t, hit.sphere_id);
+    hits.t[i] = first.t;
+    hits.sphere_id[i] = first.sphere_id;
+  }
+}
+
+void TransparentSpheres::find_entries(const RaySpan& rays, RayOrder order, std::vector<RayHit>& entries) const {
+  const UnionOfBodies bodies{unions_.get(), spheres_, sticks_, cuts_.get()};
+  bodies.find_entries(
+      rays, order, [this](std::int64_t id) { return class_of(id); }, entries);
 }
 
 void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, double* const shares[3]) const {
@@ -222,7 +269,7 @@ void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, double
   DepthSums sums;
   for (int c = 0; c < columns(); ++c) sums.columns[c] = depths.data() + count * static_cast<std::size_t>(c);
   static thread_local std::vector<double> passed;
-  passed.assign(of_classes_.empty() && !has_classes_ ? 0 : count, 1.0);
+  passed.assign(of_classes_.empty() && unions_ == nullptr && !has_classes_ ? 0 : count, 1.0);
   if (seen_ == nullptr && of_images_ == nullptr)
     transparent_->optical_depths(rays, order, {depths_.data(), columns()}, sums);
   else
@@ -233,22 +280,21 @@ void TransparentSpheres::find_shares(const RaySpan& rays, RayOrder order, double
   // The first of each class, or where all let the same through, any.
   static thread_local HitBatch hits;
   static thread_local std::vector<std::uint8_t> crossed;
-  static thread_local std::vector<RayHit> entries;
+  static thread_local std::vector<RayHit> entries, of_sticks;
+  if (unions_ != nullptr) {
+    find_entries(rays, order, entries);
+    for (const RayHit& entry : entries) passed[static_cast<std::size_t>(entry.ray)] *= passing(entry.sphere_id);
+  }
+  find_sticks_of_classes(rays, order, of_sticks);
   for (const Class& one : of_classes_) {
-    if (as_one_) {
-      union_of(one).find_entries(rays, order, entries);
-      for (const RayHit& entry : entries) passed[static_cast<std::size_t>(entry.ray)] *= passing(entry.sphere_id);
-      continue;
-    }
-    if (one.share > 0) {
+    if (one.share > 0 && !one.has_sticks) {
       crossed.resize(count);
-      one.engine->occluded(rays, order, crossed.data());
+      one.spheres->occluded(rays, order, crossed.data());
       for (std::size_t i = 0; i < count; ++i)
         if (crossed[i] != 0) passed[i] *= one.share;
       continue;
     }
-    hits.resize(rays.count);
-    one.engine->closest_hits(rays, order, hits.span());
+    find_first(one, rays, order, of_sticks, hits);
     for (std::int64_t i = 0; i < rays.count; ++i)
       if (const Hit hit = hits.at(i); hit.found()) passed[static_cast<std::size_t>(i)] *= passing(hit.sphere_id);
   }
@@ -275,17 +321,16 @@ void TransparentSpheres::hides(const RaySpan& rays, RayOrder order, std::uint8_t
 void TransparentSpheres::find_crossings(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
   transparent_->all_hits(rays, order, found);
   if (has_classes_) keep_first_of_classes(found);
-  if (of_classes_.empty()) return;
+  if (of_classes_.empty() && unions_ == nullptr) return;
   static thread_local HitBatch hits;
-  static thread_local std::vector<RayHit> entries;
+  static thread_local std::vector<RayHit> entries, of_sticks;
+  if (unions_ != nullptr) {
+    find_entries(rays, order, entries);
+    found.insert(found.end(), entries.begin(), entries.end());
+  }
+  find_sticks_of_classes(rays, order, of_sticks);
   for (const Class& one : of_classes_) {
-    if (as_one_) {
-      union_of(one).find_entries(rays, order, entries);
-      found.insert(found.end(), entries.begin(), entries.end());
-      continue;
-    }
-    hits.resize(rays.count);
-    one.engine->closest_hits(rays, order, hits.span());
+    find_first(one, rays, order, of_sticks, hits);
     for (std::int64_t i = 0; i < rays.count; ++i)
       if (const Hit hit = hits.at(i); hit.found()) found.push_back({i, hit.t, hit.sphere_id});
   }
