@@ -58,6 +58,13 @@ class Arrows(ProgramTest):
         self.assertNotEqual(self.picture(*arrows, "--legend"), self.picture(*arrows))
         self.assertIn("no meaning", self.refused("--arrows", "vx,vy,vz", "--arrow-colour", "red", "--colour", "grey", "--legend"))
 
+    def test_transparent_ones_are_as_clear_as_their_spheres(self):
+        clear = ["--arrows", "vx,vy,vz", "--opacity", "0.5"]
+        for rule in ("once", "first", "as_one"):
+            hashes = {self.picture(*clear, "--opacity-rule", rule, "--engine", engine) for engine in ("wide", "reference", "brute")}
+            self.assertEqual(len(hashes), 1, rule)
+            self.assertNotIn(self.picture("--arrows", "vx,vy,vz", "--opacity-rule", rule), hashes)
+
     def test_what_is_refused(self):
         self.assertIn("expected three attributes", self.refused("--arrows", "vx,vy"))
         self.assertIn('there is no attribute "vw"', self.refused("--arrows", "vx,vy,vw"))
@@ -67,7 +74,6 @@ class Arrows(ProgramTest):
         self.assertIn("--trace", self.refused("--trace-radius", "2"))
         self.assertIn('no attribute "chain"', self.refused("--trace", "chain"))
         self.assertIn("above 0", self.refused("--trace", "mol", "--trace-radius", "vx"))
-        self.assertIn("transparent spheres", self.refused("--arrows", "vx,vy,vz", "--opacity", "0.5"))
         self.assertIn("tree", self.refused("--trace", "mol", "--view", "traversal"))
         self.assertIn("draws no bonds, arrows, tubes and links", self.refused("--trace", "mol", "--engine", "gpu"))
 
