@@ -182,8 +182,23 @@ class Arguments(ProgramTest):
             for label in FOR_OPTIONS if (call.__name__, name) not in EXCEPT else []:
                 self.judge(call, {**valid, name: HOSTILE[label]}, name, label)
 
+    def test_sticks_and_their_tree(self):
+        ends = {"a": [[0.0, 0, 0]], "b": [[9.0, 9, 9]], "radius": 0.5}
+        self.try_all(bh.Sticks, ends)
+        between = {"a": [0], "b": [3], "radius": 0.5, "between": self.spheres}
+        for name in between:
+            for label, value in HOSTILE.items():
+                if (name, label) != ("between", "None"):  # then positions are no ends
+                    self.judge(bh.Sticks, {**between, name: value}, name, label)
+        sticks = bh.Sticks(**ends)
+        self.try_all(bh.BodyTree, {"spheres": self.spheres, "sticks": sticks})
+        tree = bh.BodyTree(self.spheres, sticks)
+        rays = {"origins": [[-5.0, 1, 2]], "directions": [[1.0, 0, 0]]}
+        self.try_all(tree.closest, rays)
+        self.try_all(tree.occluded, rays)
+
     def test_every_public_name_is_tried(self):
-        tried = {"Spheres", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
+        tried = {"BodyHits", "BodyTree", "Spheres", "Sticks", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
                  "again", "angle", "buried_area", "colour_map", "compare", "contacts", "convert", "dihedral", "distance", "film", "linear", "measure", "page", "porosity", "read", "render", "sasa", "save_page", "select", "stats",
                  "verify", "view", "volume"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}

@@ -36,9 +36,11 @@ class Sticks:
     1
     """
 
-    def __init__(self, a: npt.ArrayLike, b: npt.ArrayLike, radius: npt.ArrayLike, *, between: Optional[Any] = None) -> None:
+    def __init__(self, a: npt.ArrayLike, b: npt.ArrayLike, radius: npt.ArrayLike, *, between: Optional[Spheres] = None) -> None:
         if between is not None:
-            centres = np.asarray(spheres_of(between).xyz, dtype=np.float64)
+            if not isinstance(between, Spheres):
+                raise bad_argument("between", f"expected Spheres, found {found(between)}")
+            centres = np.asarray(between.xyz, dtype=np.float64)
             ends = [centres[whole_numbers(name, one, None, 0, len(centres) - 1)] for name, one in (("a", a), ("b", b))]
         else:
             ends = [np.asarray(vectors(name, one), dtype=np.float64) for name, one in (("a", a), ("b", b))]
