@@ -65,6 +65,21 @@ class Arrows(ProgramTest):
             self.assertEqual(len(hashes), 1, rule)
             self.assertNotIn(self.picture("--arrows", "vx,vy,vz", "--opacity-rule", rule), hashes)
 
+    def test_transparent_copies_are_those_of_a_file_with_the_copies(self):
+        head, *rows = VECTORS.splitlines()
+        moved = []
+        for i in range(2):
+            for row in rows:
+                x, *rest = row.split(",")
+                moved.append(",".join([str(float(x) + 8 * i), *rest]))
+        self.write("copies.csv", "\n".join([head, *moved]) + "\n")
+        view = ["--arrows", "vx,vy,vz", "--opacity", "0.4", "--colour", "red", "--fog", "0", "--eye", "6,1,30", "--look-at", "6,1,0"]
+        for rule in ("each_surface", "once", "first", "as_one"):
+            options = [*SIZE, *view, "--opacity-rule", rule, "--json"]
+            copies = json.loads(self.succeed("render", "v.csv", "-o", "a.png", "--cell-vectors", "8,0,0,0,5,0,0,0,5", "--replicate", "2x1x1", *options))
+            of_file = json.loads(self.succeed("render", "copies.csv", "-o", "b.png", *options))
+            self.assertEqual(copies["picture_hash"], of_file["picture_hash"], rule)
+
     def test_what_is_refused(self):
         self.assertIn("expected three attributes", self.refused("--arrows", "vx,vy"))
         self.assertIn('there is no attribute "vw"', self.refused("--arrows", "vx,vy,vw"))

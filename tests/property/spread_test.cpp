@@ -116,5 +116,12 @@ TEST(Spread, spheres_that_coincide_touch_or_lie_in_each_other) {
   }
 }
 
+// A rank does not know the bodies of others that overlap its own.
+TEST(Spread, overlapping_bodies_as_one_are_refused) {
+  RenderSettings settings;
+  settings.opacity_rule = OpacityRule::as_one;
+  EXPECT_FALSE(RanksInProcess::make(four_spheres_scene(), settings, {}, 2, FirstSpheres::in_order));
+}
+
 }  // namespace
 }  // namespace bihive
