@@ -80,6 +80,11 @@ class Arrows(ProgramTest):
             of_file = json.loads(self.succeed("render", "copies.csv", "-o", "b.png", *options))
             self.assertEqual(copies["picture_hash"], of_file["picture_hash"], rule)
 
+    def test_a_legend_of_categories(self):
+        self.write("v.csv", "\n".join(row + "," + phase for row, phase in zip(VECTORS.splitlines(), ("phase", "up", "down", "up", "down"))) + "\n")
+        arrows = ["--arrows", "vx,vy,vz", "--arrow-colour", "phase", "--colour", "grey"]
+        self.assertNotEqual(self.picture(*arrows, "--legend"), self.picture(*arrows))
+
     def test_what_is_refused(self):
         self.assertIn("expected three attributes", self.refused("--arrows", "vx,vy"))
         self.assertIn('there is no attribute "vw"', self.refused("--arrows", "vx,vy,vw"))

@@ -116,6 +116,29 @@ TEST(Arrows, of_a_selection_in_colours_of_their_own) {
   EXPECT_TRUE(legend_of(red).empty());
 }
 
+TEST(Arrows, have_a_legend_of_their_categories) {
+  Scene scene = scene_with_vectors();
+  scene.spheres.attributes().numbers = {{"fx", {3, 2, 1}}, {"fy", {0, 0, 0}}, {"fz", {0, 0, 0}}};
+  scene.spheres.attributes().texts = {{"phase", {"up", "down", "none"}, {0, 1, 2}}};
+  Arrows arrows = forces();
+  arrows.select = "index 0 1";  // the third one has no arrow
+  arrows.colour = "phase";
+  ASSERT_TRUE(add_arrows(scene, arrows));
+  const std::vector<LegendKey> keys = legend_of(scene);
+  ASSERT_EQ(keys.size(), 1U);
+  EXPECT_EQ(keys[0].title, "phase");
+  ASSERT_EQ(keys[0].entries.size(), 2U);
+  EXPECT_EQ(keys[0].entries[0].name, "up");
+  EXPECT_EQ(keys[0].entries[1].name, "down");
+  EXPECT_FALSE(keys[0].entries[0].colour == keys[0].entries[1].colour);
+
+  // Spheres that are coloured so say it already.
+  ColourBy phase;
+  phase.attribute = "phase";
+  ASSERT_TRUE(apply_looks(scene, {Look{"all", {phase}}}));
+  EXPECT_EQ(legend_of(scene).size(), 1U);
+}
+
 TEST(Arrows, say_what_is_wrong) {
   const auto with = [](auto change) {
     Arrows arrows = forces();

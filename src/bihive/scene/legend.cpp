@@ -79,7 +79,8 @@ class KeyCollector {
   KeyCollector(const Scene& scene, const ColourBy& how)
       : scene_(scene), how_(how), attribute_(attribute_of(scene.spheres, how)), names_(scene.spheres, attribute_) {}
 
-  void add(std::int64_t id) {
+  void add(std::int64_t id) { add(id, scene_.spheres.attributes().colour[static_cast<std::size_t>(id)]); }
+  void add(std::int64_t id, Vec3f colour) {
     if (!attribute_.found()) return;
     if (!used_) spheres_.push_back(id);
     used_ = true;
@@ -99,7 +100,6 @@ class KeyCollector {
     const auto [position, is_new] = entries_.try_emplace({std::isnan(place), std::isnan(place) ? 0 : place});
     if (!is_new) return;
     spheres_.push_back(id);
-    const Vec3f colour = scene_.spheres.attributes().colour[static_cast<std::size_t>(id)];
     position->second = {below_logarithms ? "0 or less"
                         : how_.range     ? "unknown"
                                          : names_.name(id),
@@ -186,9 +186,35 @@ LegendKey key_of_names(const Scene& scene) {
   return key;
 }
 
-// The map of arrows or links, unless it is that of spheres. Categories are named by the spheres alone.
-std::optional<LegendKey> key_of_sticks(const ColourBy& how, const std::vector<LegendKey>& keys) {
-  if (!how.range) return std::nullopt;
+// The categories of spheres whose arrows have the colours of these.
+std::optional<LegendKey> categories_of_sticks(const Scene& scene, const ColourBy& how,
+                                              const std::vector<LegendKey>& keys) {
+  const SphereSet& spheres = scene.spheres;
+  std::vector<Vec3f> colours(static_cast<std::size_t>(spheres.size()));
+  const std::vector<std::uint8_t> all(colours.size(), 1);
+  if (!colour_by(spheres, how, all, scene.picture.transfer, colours, scene.element_colours)) return std::nullopt;
+  KeyCollector collector(scene, how);
+  for (auto stick = static_cast<std::int64_t>(scene.sticks.pairs().size()); stick < scene.sticks.size(); ++stick) {
+    const std::int64_t sphere = scene.sticks.sphere_at(spheres, 2 * stick);
+    const Vec3f* const colour = scene.sticks.colour_at(2 * stick);
+    if (colour != nullptr && *colour == colours[static_cast<std::size_t>(sphere)]) collector.add(sphere, *colour);
+  }
+  if (!collector.used()) return std::nullopt;
+  LegendKey key = collector.key();
+  const auto is_in = [](const LegendEntry& one, const LegendKey& other) {
+    return std::any_of(other.entries.begin(), other.entries.end(),
+                       [&](const LegendEntry& entry) { return entry.name == one.name && entry.colour == one.colour; });
+  };
+  const bool is_said = std::any_of(keys.begin(), keys.end(), [&](const LegendKey& other) {
+    return other.title == key.title && std::all_of(key.entries.begin(), key.entries.end(),
+                                                   [&](const LegendEntry& one) { return is_in(one, other); });
+  });
+  return is_said ? std::nullopt : std::optional(std::move(key));
+}
+
+// The map or the categories of arrows or links, unless spheres have said them. Links have no categories.
+std::optional<LegendKey> key_of_sticks(const Scene& scene, const ColourBy& how, const std::vector<LegendKey>& keys) {
+  if (!how.range) return categories_of_sticks(scene, how, keys);
   LegendKey key;
   key.title = how.title.empty() ? how.attribute : how.title;
   key.scale = {how.map.value_or(ColourMap()), *how.range, how.logarithmic};
@@ -213,7 +239,7 @@ std::vector<LegendKey> legend_of(const Scene& scene) {
   for (const KeyCollector& collector : joined) keys.push_back(collector.key());
   if (LegendKey names = key_of_names(scene); !names.entries.empty()) keys.push_back(std::move(names));
   for (const ColourBy& how : scene.sticks_coloured_by)
-    if (std::optional<LegendKey> of_sticks = key_of_sticks(how, keys)) keys.push_back(std::move(*of_sticks));
+    if (std::optional<LegendKey> of_sticks = key_of_sticks(scene, how, keys)) keys.push_back(std::move(*of_sticks));
   return keys;
 }
 

@@ -59,8 +59,7 @@ Status check_labels(const Scene& scene, const Camera& camera, const RenderSettin
   const bool has_meaning = meanings.empty() ? !scene.coloured_by.empty()
                                             : std::any_of(meanings.begin(), meanings.end(),
                                                           [](std::int32_t meaning) { return meaning != -1; });
-  const bool sticks_have = std::any_of(scene.sticks_coloured_by.begin(), scene.sticks_coloured_by.end(),
-                                       [](const ColourBy& how) { return how.range.has_value(); });
+  const bool sticks_have = !scene.sticks_coloured_by.empty() && !legend_of(scene).empty();
   if (labels.legend && !has_meaning && !sticks_have)
     return Error{"the colours of these spheres have no meaning that a legend could explain", "", 0, 0,
                  "colour them by an attribute: " + setting_name("colour_by") + " z"};
