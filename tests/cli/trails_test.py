@@ -59,6 +59,8 @@ class Trails(ProgramTest):
         self.write("s.json", json.dumps({"bihive_scene": 2, "spheres": {"file": "run.xyz", "frame": 4}, "picture": {"trail": 3, "trail_radius": 0.2}}))
         by_file = self.picture(of="s.json")
         self.assertEqual(by_file, self.picture("--frame", "4", "--trail", "3", "--trail-radius", "0.2", "--style", "plain"))
+        self.write("first.json", json.dumps({"bihive_scene": 2, "spheres": {"file": "run.xyz", "frame": 4}, "picture": {"trail": 9, "trail_radius": 0.2}}))
+        self.assertEqual(self.picture(of="first.json"), self.picture("--frame", "4", "--trail", "9", "--trail-radius", "0.2", "--style", "plain"))
         self.succeed("scene", "save", "saved.json", "run.xyz", *VIEW, "--frame", "4", "--trail", "3")
         self.assertEqual(self.succeed_json("render", "saved.json", "-o", "b.png")["picture_hash"], self.picture("--frame", "4", "--trail", "3"))
 

@@ -41,9 +41,8 @@ Input FrameSource::load(std::int64_t frame, const Style& style) const {
     add_trajectory(options_, input);
     return input;
   }
-  // Counted from the end where there are several: 0 would be the frame that a document names.
   ReadOptions reading = options_.reading.options();
-  reading.frame = count_ > 1 ? frame - count_ : frame;
+  reading.frame = frame;
   const Style* const wanted = asked_for_ || !looks_like_scene(bytes_) ? &style : nullptr;
   return value_or_fail(options_.input == "demo" ? built_in_scene("demo", {}, reading, &style)
                                                 : load_scene(bytes_, name_, reading, LooksOfFile::keep, wanted));
@@ -58,7 +57,9 @@ std::vector<std::shared_ptr<const SphereSet>> FrameSource::before(std::int64_t f
   std::vector<std::shared_ptr<const SphereSet>> found;
   for (std::int64_t k = first; k < frame; ++k) {
     std::shared_ptr<const SphereSet>& one = spheres[k];
-    if (one == nullptr) one = std::make_shared<const SphereSet>(load(k, Style()).scene.spheres);
+    // Documents count from the end: 0 would be the frame that they name.
+    if (one == nullptr)
+      one = std::make_shared<const SphereSet>(load(frames_ != nullptr ? k : k - count_, Style()).scene.spheres);
     found.push_back(one);
   }
   return found;
