@@ -331,7 +331,7 @@ void App::opened(const Result<SceneFacts>& facts) {
   framed_ = true;
   const std::filesystem::path name(facts->name);
   panel_.file_name = name.stem().string() + ".png";
-  glfwSetWindowTitle(window_->handle(), (name.filename().string() + " - bihive").c_str());
+  glfwSetWindowTitle(window_->handle(), (title_of(*facts) + " - bihive").c_str());
 }
 
 void App::apply(const ViewerSettings& settings) {

@@ -59,6 +59,8 @@ std::string Page::loaded(const Result<SceneFacts>& facts) const {
   if (!facts) return failure(facts.error());
   ordered_json json;
   json["facts"] = {{"name", facts->name},
+                   {"title", facts->title},
+                   {"entry_id", facts->entry_id},
                    {"format", facts->format},
                    {"spheres", facts->spheres},
                    {"frames", facts->frames},
@@ -108,7 +110,8 @@ std::string Page::player() const {
                   {"playing", player_.playing()},
                   {"loops", player_.loops()},
                   {"frames_per_second", player_.frames_per_second()},
-                  {"time_ps", time_ps ? ordered_json(*time_ps) : ordered_json()}});
+                  {"time_ps", time_ps ? ordered_json(*time_ps) : ordered_json()},
+                  {"title", viewer_.facts().title}});
 }
 
 void Page::toggle_play(double now_ms) {

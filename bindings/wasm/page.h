@@ -36,7 +36,7 @@ class Page {
 
   // The player of a file with several frames. Times are of any steady clock, in milliseconds.
 
-  /// {"frames", "frame", "shown", "playing", "loops", "frames_per_second", "time_ps" or null}
+  /// {"frames", "frame", "shown", "playing", "loops", "frames_per_second", "time_ps" or null, "title"}
   std::string player() const;
   void toggle_play(double now_ms);
   void step_frames(int by) { player_.step(by); }

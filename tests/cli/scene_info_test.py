@@ -112,6 +112,21 @@ class Info(ProgramTest):
             self.assertIn("reference tree", with_trees)
         self.assertNotIn("reference tree", said)
 
+    def test_title_and_entry(self):
+        head = ("HEADER    HYDROLASE                               18-NOV-94   1HPV\nTITLE     THE TITLE \x1b[31m OF\nTITLE    2 THE FILE\n")
+        self.write("a.pdb", head + "HETATM    1  O   HOH A   1       1.000   2.000   3.000  1.00  0.00           O  \n")
+        info = self.succeed_json("info", "a.pdb")
+        self.assertEqual((info["title"], info["entry_id"]), ("THE TITLE [31m OF THE FILE", "1HPV"))
+        self.assertIn("\n  title             THE TITLE [31m OF THE FILE\n  entry             1HPV\n", self.succeed("info", "a.pdb"))
+        self.succeed("convert", "a.pdb", "-o", "a.extxyz")
+        self.assertEqual(self.succeed_json("info", "a.extxyz")["title"], "THE TITLE [31m OF THE FILE")
+        # A scene file has that of its spheres.
+        self.write("a.json", '{"bihive_scene": 1, "spheres": {"file": "a.pdb"}}')
+        self.assertEqual(self.succeed_json("info", "a.json")["title"], "THE TITLE [31m OF THE FILE")
+        self.write("a.csv", "0 0 0 1\n")
+        info = self.succeed_json("info", "a.csv")
+        self.assertEqual((info["title"], info["entry_id"]), (None, None))
+
     def test_times_and_molecules(self):
         dump = "".join(f"ITEM: UNITS\nreal\nITEM: TIME\n{500 * k}\nITEM: TIMESTEP\n{k}\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n"
                        "0 9\n0 9\n0 9\nITEM: ATOMS id mol x y z radius\n3 8 1 1 1 1\n1 7 2 2 2 1\n2 7 3 3 3 1\n" for k in range(4))

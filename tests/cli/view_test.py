@@ -290,6 +290,7 @@ class Window(ProgramTest):
 
     def test_keys_and_pointer(self):
         self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        self.write("titled.xyz", "1\ntwo words\nC 0 0 0\n")
         self.write("broken.csv", "x,y,z\n1,2,what\n")
         self.open_window("demo", "--size", "700x400", "--samples", "1")
         first = self.saved()
@@ -357,6 +358,9 @@ class Window(ProgramTest):
         self.assertEqual(self.saved()["scene"], "demo")
         open_file("pair.csv")
         self.title("pair.csv - bihive")
+        open_file("titled.xyz")
+        self.title("two words - bihive")
+        open_file("pair.csv")
         pair = self.saved()
         self.assertEqual((pair["scene"], pair["name"]), ("pair.csv", "pair.png"))
 

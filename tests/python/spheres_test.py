@@ -281,18 +281,19 @@ class Attributes(unittest.TestCase):
             path.write_text("a t= 2.5\n1\n    1ALA     CA    1   0.000   0.000   0.000\n 1 1 1\n")
             timed = bh.read(path, radius=1)
         self.assertEqual((s.step, s.frames, timed.time_ps), (20, 2, 2.5))
+        self.assertEqual((s.title, timed.title, bh.read("demo").entry_id), ("", "a", "1HPV"))
         self.assertNotEqual(s, first)
         for whole in (s, timed):
             for same in [copy.copy(whole), copy.deepcopy(whole), pickle.loads(pickle.dumps(whole)), whole[:]]:
                 self.assertEqual(same, whole)
-                facts = [(one.step, one.frames, one.time_ps, one.rules, one.format, one.name) for one in (same, whole)]
+                facts = [(one.step, one.frames, one.time_ps, one.rules, one.format, one.name, one.title, one.entry_id) for one in (same, whole)]
                 self.assertEqual(*facts)
         self.assertEqual(s[1:].step, 20)
         # A state of an earlier version has no such facts.
-        state = {key: value for key, value in s.__getstate__().items() if key not in ("frames", "time_ps", "step", "rules")}
+        state = {key: value for key, value in s.__getstate__().items() if key not in ("title", "entry_id", "frames", "time_ps", "step", "rules")}
         old = bh.Spheres.__new__(bh.Spheres)
         old.__setstate__(state)
-        self.assertEqual((old.step, old.frames, old.rules), (None, 1, []))
+        self.assertEqual((old.step, old.frames, old.rules, old.title), (None, 1, [], ""))
 
     def test_positions(self):
         s = bh.Spheres(np.arange(30).reshape(10, 3), radius=1, columns={"name": [f"n{i}" for i in range(10)]})

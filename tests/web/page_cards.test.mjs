@@ -40,7 +40,9 @@ test('one card at a time, by mouse and keys; the first card goes with the first 
   assert.equal(await page.evaluate(() => document.activeElement.dataset.card), 'save', 'the focus stays at hand');
   await page.click('#badge');
   assert.deepEqual(await shown(), ['card_scene']);
-  assert.match(await page.textContent('#badge'), /HIV-1 protease.*1,631 atoms · PDB/);
+  assert.equal(await page.textContent('#badge'), 'HIV-1 protease with amprenavir1HPV · 1,631 atoms · PDB');
+  assert.equal(await page.title(), 'HIV-1 protease with amprenavir · 1HPV · bihive');
+  assert.match(await page.textContent('#scene_title'), /^HIV-1 PROTEASE .* COMPLEXED WITH VX-478/);
   assert.ok((await page.locator('#rules li').count()) > 0, 'how it was read');
   // A click on the picture closes it; a drag does not.
   await page.mouse.move(300, 300);

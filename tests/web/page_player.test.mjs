@@ -46,8 +46,10 @@ test('each frame is the program’s, by buttons, keys and the time line', async 
     assert_same_picture(await saved_picture(page, width, height), native, `frame ${frame}`);
   };
   await same(0);
+  assert.equal(await page.textContent('#badge_name'), 'frame 0', 'the comment of the frame');
   await page.click('#player_on');
   await same(1);
+  assert.equal(await page.textContent('#badge_name'), 'frame 1');
   await page.focus('#picture');
   await page.keyboard.press('.');
   await same(2);

@@ -207,6 +207,7 @@ const engine = new Engine(
         union.outdated();
       }
       if (state.shown) shown_frame = state.frame;
+      if (state.shown && facts && state.title !== facts.title) show_facts({ ...facts, title: state.title });
     },
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
@@ -374,16 +375,22 @@ function show_gpu(): void {
 
 function show_facts(now: Facts): void {
   facts = now;
-  const name = now.name.replace(/.*\//, '');
+  const file = now.name.replace(/.*\//, '');
   // The built-in ones have names for people in the list of samples.
   const built_in = 'built_in' in source && document.querySelector(`#built_in option[value="${source.built_in}"]`);
-  element('badge_name').textContent = (built_in && built_in.textContent) || name;
+  const name = (built_in && built_in.textContent) || now.title || file;
   const atoms = now.has_elements ? 'atoms' : 'spheres';
-  element('badge_more').textContent = `${grouped(now.spheres)} ${now.spheres === 1 ? atoms.slice(0, -1) : atoms} · ${now.format}`;
-  document.title = `${name} · bihive`;
+  const counted = `${grouped(now.spheres)} ${now.spheres === 1 ? atoms.slice(0, -1) : atoms}`;
+  const entry = now.entry_id === name ? '' : now.entry_id;
+  element('badge_name').textContent = name;
+  element('badge').title = name;
+  element('badge_more').textContent = [entry, counted, now.format].filter(Boolean).join(' · ');
+  document.title = [name, entry, 'bihive'].filter(Boolean).join(' · ');
   const spheres = `${grouped(now.spheres)} ${now.spheres === 1 ? 'sphere' : 'spheres'}`;
+  element('scene_title').textContent = now.title;
+  element('scene_title').hidden = now.title === '';
   element('facts').textContent =
-    `${name}: ${spheres}, ${now.format}` +
+    `${file}: ${spheres}, ${now.format}` +
     (now.frames > 1 ? `, ${grouped(now.frames)} frames` : '');
   picture.setAttribute('aria-label', `${name}, ${spheres}`);
   element('rules_box').hidden = now.rules.length === 0;

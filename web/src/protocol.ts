@@ -73,6 +73,8 @@ export interface ColouredBy {
 
 export interface Facts {
   name: string;
+  title: string; // what the file says that it shows; may be empty, as the entry's id may
+  entry_id: string;
   format: string;
   spheres: number;
   frames: number;
@@ -166,6 +168,7 @@ export interface PlayerState {
   loops: boolean;
   frames_per_second: number;
   time_ps: number | null;
+  title: string; // of the shown frame
 }
 
 export type PlayAction = { toggle: true } | { step: number } | { frame: number } | { frames_per_second: number } | { loops: boolean };

@@ -110,7 +110,7 @@ void run_convert(const ConvertOptions& options) {
 
   WrittenSpheres written;
   if (format.format) {
-    written = write_spheres(input.scene.spheres, *format.format);
+    written = write_spheres(input.scene.spheres, *format.format, input.title);
     if (input.scene.spheres.has_images()) written.left_out.emplace_back("the copies along the cell");
   } else {
     written.bytes = scene_file(input);

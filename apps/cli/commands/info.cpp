@@ -92,6 +92,9 @@ void print_json(const Facts& facts) {
   ordered_json json = ordered_json::object();
   json["name"] = scene.name;
   json["format"] = facts.input.format;
+  const auto text = [](const std::string& value) { return value.empty() ? ordered_json() : ordered_json(value); };
+  json["title"] = text(facts.input.title);
+  json["entry_id"] = text(facts.input.entry_id);
   json["seed"] = scene.seed ? ordered_json(*scene.seed) : ordered_json();
   json["spheres"] = facts.spheres.size();
   json["bounds"] = {{"lo", vector(facts.bounds.lo)}, {"hi", vector(facts.bounds.hi)}};
@@ -186,6 +189,8 @@ void print_text(const Facts& facts, bool with_trees) {
   };
   const Scene& scene = facts.input.scene;
   print(fmt::format("{}: {}, {} spheres\n", escaped(scene.name), facts.input.format, grouped(facts.spheres.size())));
+  if (!facts.input.title.empty()) row("title", facts.input.title);
+  if (!facts.input.entry_id.empty()) row("entry", facts.input.entry_id);
   if (facts.time_span_ps)
     row("time span", fmt::format("{:.9g} to {:.9g} ps in {} frames", facts.time_span_ps->first,
                                  facts.time_span_ps->second, grouped(facts.input.frames)));

@@ -34,7 +34,8 @@ _WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".
 _MAPS = [name + tail for name in _bihive.colour_maps() for tail in ("", "_r") if name != "okabe-ito" or not tail]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
 _TYPES = (-(2**31), 2**31 - 1)
-_OF_FRAMES = ("frames", "time_ps", "step", "rules")
+_MOST_SHOWN = 200000  # spheres that show themselves as a picture in a notebook
+_OF_FRAMES = ("title", "entry_id", "frames", "time_ps", "step", "rules")
 _READING = [*_bihive.reading_settings(), "count", "seed"]
 
 
@@ -296,6 +297,8 @@ class Spheres:
             None,
             None,
             [],
+            "",
+            "",
         )
         if bonds is not None:
             self._core = self._core.with_bonds(_bonds(bonds, count), True)
@@ -348,6 +351,16 @@ class Spheres:
     def name(self) -> str:
         """The file that they come from, or the given name."""
         return self._core.name
+
+    @property
+    def title(self) -> str:
+        """What the file says that it shows: TITLE of a PDB file, the name of a molecule...; "" if it says nothing."""
+        return self._core.title
+
+    @property
+    def entry_id(self) -> str:
+        """The entry of a database that the file states, such as "1HPV"; "" if it states none."""
+        return self._core.entry_id
 
     @property
     def format(self) -> str:
@@ -564,6 +577,8 @@ def _core_of(state: dict[str, Any]) -> _bihive.Spheres:
         None if state.get("time_ps") is None else float(one_each("time_ps", state["time_ps"], 1)[0]),
         _whole_or_none("step", state.get("step")),
         [text_of("rules", rule) for rule in several("rules", state.get("rules", []), "sentences")],
+        text_of("title", state.get("title", "")),
+        text_of("entry_id", state.get("entry_id", "")),
     )
     if state.get("bonds") is None:
         return core

@@ -83,15 +83,13 @@ void take_places(SphereFile& file, const py::array& xyz, const py::array& radius
 }
 
 // Arrays have an entry for each sphere, and types as bihive/_spheres.py gives them.
-SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
-                                  const std::optional<Array<std::uint8_t>>& element,
-                                  const std::optional<Array<std::int32_t>>& type,
-                                  const std::optional<Array<float>>& colour, const std::optional<Array<float>>& opacity,
-                                  const NumberColumns& numbers, const TextColumns& texts,
-                                  const std::optional<Array<double>>& cell, const std::array<bool, 3>& periodic,
-                                  const std::string& format, const std::string& name, std::int64_t frames,
-                                  std::optional<double> time_ps, std::optional<std::int64_t> step,
-                                  const std::vector<std::string>& rules) {
+SharedSpheres spheres_from_arrays(
+    const py::array& xyz, const py::array& radius, const std::optional<Array<std::uint8_t>>& element,
+    const std::optional<Array<std::int32_t>>& type, const std::optional<Array<float>>& colour,
+    const std::optional<Array<float>>& opacity, const NumberColumns& numbers, const TextColumns& texts,
+    const std::optional<Array<double>>& cell, const std::array<bool, 3>& periodic, const std::string& format,
+    const std::string& name, std::int64_t frames, std::optional<double> time_ps, std::optional<std::int64_t> step,
+    const std::vector<std::string>& rules, const std::string& title, const std::string& entry_id) {
   const py::ssize_t count = xyz.ndim() == 2 && xyz.shape(1) >= 3 ? xyz.shape(0) : -1;
   check_size("radius", radius, count);
   if (element) check_size("element", *element, count);
@@ -122,6 +120,8 @@ SharedSpheres spheres_from_arrays(const py::array& xyz, const py::array& radius,
   made->file.time_ps = time_ps;
   made->file.step = step;
   made->file.rules = rules;
+  made->file.title = one_line(title, 300);
+  made->file.entry_id = one_line(entry_id, 40);
   made->name = name;
   return made;
 }
@@ -131,6 +131,8 @@ std::shared_ptr<Spheres> facts_of(const Spheres& whole) {
   auto made = std::make_shared<Spheres>();
   SphereFile& file = made->file;
   file.format = whole.file.format;
+  file.title = whole.file.title;
+  file.entry_id = whole.file.entry_id;
   file.frames = whole.file.frames;
   file.rules = whole.file.rules;
   file.assemblies = whole.file.assemblies;
@@ -221,6 +223,8 @@ SphereFile without_scene(LoadedScene loaded) {
   SphereFile file;
   file.spheres = std::move(loaded.scene.spheres);
   file.format = loaded.format;
+  file.title = std::move(loaded.title);
+  file.entry_id = std::move(loaded.entry_id);
   file.frames = loaded.frames;
   file.rules = std::move(loaded.rules);
   file.warnings = std::move(loaded.warnings);
@@ -510,7 +514,7 @@ py::tuple written(const Spheres& spheres, const std::string& format) {
   WrittenSpheres made;
   {
     const py::gil_scoped_release unlocked;
-    made = write_spheres(spheres.file.spheres, formats.at(format));
+    made = write_spheres(spheres.file.spheres, formats.at(format), spheres.file.title);
   }
   return py::make_tuple(py::bytes(made.bytes), made.left_out);
 }
@@ -576,6 +580,8 @@ void bind_spheres(py::module_& module) {
                                    s.name.data(), static_cast<Py_ssize_t>(s.name.size())));
                              })
       .def_property_readonly("format", [](const Spheres& s) { return s.file.format; })
+      .def_property_readonly("title", [](const Spheres& s) { return s.file.title; })
+      .def_property_readonly("entry_id", [](const Spheres& s) { return s.file.entry_id; })
       .def_property_readonly("frames", [](const Spheres& s) { return s.file.frames; })
       .def_property_readonly("time_ps", [](const Spheres& s) { return s.file.time_ps; })
       .def_property_readonly("step", [](const Spheres& s) { return s.file.step; })

@@ -142,4 +142,20 @@ std::string masked(std::string_view text) {
       text, [](std::uint32_t) { return false; }, [](std::string& line, Character, unsigned) { line += '?'; });
 }
 
+std::string one_line(std::string_view text, std::size_t most_bytes) {
+  constexpr std::string_view kEllipsis = "\u2026";
+  const std::string clean = cleaned(
+      text, [](std::uint32_t) { return false; }, [](std::string& line, Character, unsigned) { line += ' '; });
+  std::string line;
+  for (const char c : clean)
+    if (c != ' ' || (!line.empty() && line.back() != ' ')) line += c;
+  if (!line.empty() && line.back() == ' ') line.pop_back();
+  if (line.size() <= most_bytes) return line;
+  // Not within a character.
+  std::size_t end = most_bytes - kEllipsis.size();
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0u) == 0x80) --end;
+  while (end > 0 && line[end - 1] == ' ') --end;
+  return line.substr(0, end).append(kEllipsis);
+}
+
 }  // namespace bihive

@@ -1,6 +1,7 @@
 // Readable numbers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -24,5 +25,8 @@ std::string escaped(std::string_view text);
 std::string escaped_lines(std::string_view text);
 /// The same with one '?' for each such character or byte, so that columns still count.
 std::string masked(std::string_view text);
+/// The text as one line without such characters and bytes: each run of blanks and of what is left out is one blank,
+/// none is at the ends. A longer text ends in "…" before its byte `most_bytes`, which is at least 8.
+std::string one_line(std::string_view text, std::size_t most_bytes);
 
 }  // namespace bihive

@@ -25,7 +25,8 @@ enum class RowIds {
 /// checks that, because it knows the line. `r` is either empty (the file gives no radii) or has one finite radius >= 0
 /// for each sphere. Attributes as in SphereSet, with bonds in any order.
 struct RawSpheres {
-  std::string format;  ///< as in SphereFile
+  std::string format;           ///< as in SphereFile
+  std::string title, entry_id;  ///< as in SphereFile, by title_from() of io/text/title.h
   std::vector<double> x, y, z, r;
   SphereAttributes attributes;
   bool assumed_radii = false;            ///< as SphereFile::assumed_radii

@@ -49,8 +49,12 @@ struct ReadOptions {
 constexpr std::string_view kNoRadii = "no radii; each sphere";
 
 struct SphereFile {
-  SphereSet spheres;                    ///< at least one sphere, in file order or by id (docs/formats.md)
-  std::string format;                   ///< "PDB", "PQR", "mmCIF", "XYZ", "GRO", "LAMMPS dump", "GSD", "CSV", "NPY"
+  SphereSet spheres;   ///< at least one sphere, in file order or by id (docs/formats.md)
+  std::string format;  ///< "PDB", "PQR", "mmCIF", "XYZ", "GRO", "LAMMPS dump", "GSD", "CSV", "NPY"
+  /// What the file says that it shows, of the frame where frames have titles: one line of at most 300 bytes, without
+  /// control characters; empty if it says nothing.
+  std::string title;
+  std::string entry_id;                 ///< the entry of a database, such as "1HPV"; empty if the file states none
   std::int64_t frames = 1;              ///< frames or models in the file
   std::vector<std::string> rules;       ///< what the reader did, a sentence each ("radii: van der Waals, by element")
   std::vector<std::string> warnings;    ///< what the user should know, one line each

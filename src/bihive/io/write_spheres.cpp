@@ -219,7 +219,17 @@ class ColumnsOut {
   std::unordered_set<std::string> used_;
 };
 
-std::string header_of_extended_xyz(const std::vector<OutColumn>& columns) {
+// In quotes, where a backslash is before what would end or change it.
+std::string quoted_value(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string header_of_extended_xyz(const std::vector<OutColumn>& columns, std::string_view title) {
   std::string header = "Properties=";
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) header += ':';
@@ -230,6 +240,7 @@ std::string header_of_extended_xyz(const std::vector<OutColumn>& columns) {
       header += columns[i].name + ':' + columns[i].kind + ":1";
     }
   }
+  if (!title.empty()) header += " title=" + quoted_value(title);
   return header + '\n';
 }
 
@@ -255,7 +266,7 @@ std::string csv_field(const std::string& text) {
   return quoted + '"';
 }
 
-WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format) {
+WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format, std::string_view title) {
   ColumnsOut table(spheres, format);
   if (format == SphereFileFormat::npy) {
     WrittenSpheres written = as_npy(spheres);
@@ -271,7 +282,7 @@ WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format) 
   written.left_out = std::move(table.left_out);
   const std::string count = std::to_string(spheres.size()) + '\n';
   if (format == SphereFileFormat::xyz) written.bytes = count + '\n';
-  if (format == SphereFileFormat::extended_xyz) written.bytes = count + header_of_extended_xyz(table.columns);
+  if (format == SphereFileFormat::extended_xyz) written.bytes = count + header_of_extended_xyz(table.columns, title);
   if (format == SphereFileFormat::csv) written.bytes = header_of_csv(table.columns);
   if (format == SphereFileFormat::ply) written.bytes = header_of_ply(table.columns, spheres.size());
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bihive/geometry/sphere_set.h"
@@ -24,7 +25,8 @@ struct WrittenSpheres {
 /// World units, in the set's order. Every number is the shortest decimal that reads as the same bits again; NPY holds
 /// float32, or float64 if the set's range needs it. Looks (outlines, creases, clips) are left out. Texts are changed
 /// where a format has no place for blanks or empty ones; `left_out` says so. docs/formats.md#writing lists the columns.
-WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format);
+/// `title`: as SphereFile::title; extended XYZ alone has a place for it.
+WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format, std::string_view title = {});
 
 /// A text as a field of a CSV file: in quotes where its characters need them, whichever separator a reader expects.
 std::string csv_field(const std::string& text);

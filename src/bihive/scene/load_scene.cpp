@@ -38,6 +38,8 @@ LoadedScene scene_of_spheres(SphereFile file, const std::string& name, const Sty
   loaded.scene.spheres = std::move(file.spheres);
   loaded.scene.name = name;
   loaded.format = file.format;
+  loaded.title = std::move(file.title);
+  loaded.entry_id = std::move(file.entry_id);
   loaded.frames = file.frames;
   loaded.time_ps = file.time_ps;
   loaded.step = file.step;

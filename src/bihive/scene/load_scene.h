@@ -22,7 +22,7 @@ struct BuiltInScene {
   BuiltInKind kind;
 };
 
-constexpr std::array<BuiltInScene, 5> kBuiltInScenes{{{"demo", "HIV-1 protease", BuiltInKind::file},
+constexpr std::array<BuiltInScene, 5> kBuiltInScenes{{{"demo", "HIV-1 protease with amprenavir", BuiltInKind::file},
                                                       {"scenario1", "Scenario 1: grid", BuiltInKind::scenario},
                                                       {"scenario2", "Scenario 2: clusters", BuiltInKind::scenario},
                                                       {"scenario3", "Scenario 3: both", BuiltInKind::scenario},

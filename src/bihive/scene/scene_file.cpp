@@ -365,6 +365,8 @@ class Extraction {
   void keep(SphereFile file, const std::string& name_of_file, bool move_the_rest) {
     Scene& scene = loaded_.scene;
     scene.spheres = std::move(file.spheres);
+    loaded_.title = std::move(file.title);
+    loaded_.entry_id = std::move(file.entry_id);
     loaded_.frames = file.frames;
     loaded_.time_ps = file.time_ps;
     loaded_.step = file.step;

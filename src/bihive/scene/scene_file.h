@@ -26,6 +26,7 @@ struct LoadedScene {
   bool has_assumed_radii = false;   ///< as SphereFile::assumed_radii
   LightRig rig;
   std::string format = "scene file";    ///< or "built-in", or a sphere file's format (scene/load_scene.h)
+  std::string title, entry_id;          ///< of its sphere file: as in SphereFile
   std::int64_t frames = 1;              ///< frames or models in the document's sphere file
   std::int64_t stated_frame = 0;        ///< that the document names, as ReadOptions::frame, which goes first unless 0
   std::optional<double> time_ps;        ///< of the frame, if its file states it

@@ -12,7 +12,16 @@
 namespace bihive {
 
 SceneFacts facts_of(const LoadedScene& loaded) {
-  return {loaded.scene.name, loaded.format, loaded.scene.spheres.size(), loaded.frames, loaded.rules, loaded.warnings};
+  SceneFacts facts{loaded.scene.name, loaded.format, loaded.scene.spheres.size(),
+                   loaded.frames,     loaded.rules,  loaded.warnings};
+  facts.title = loaded.title;
+  facts.entry_id = loaded.entry_id;
+  return facts;
+}
+
+std::string title_of(const SceneFacts& facts) {
+  const std::string name = facts.title.empty() ? facts.name.substr(facts.name.rfind('/') + 1) : facts.title;
+  return facts.entry_id.empty() || facts.entry_id == name ? name : name + " \u00b7 " + facts.entry_id;
 }
 
 ShownScene::ShownScene(LoadedScene loaded)

@@ -27,12 +27,15 @@ struct SceneFacts {
   bool takes_style = false;                  ///< false: the scene has its own appearance
   bool is_file_of_spheres = false;           ///< a style determines its appearance
   bool has_elements = false;
+  std::string title{}, entry_id{};                ///< as in io/read_spheres.h
   std::optional<double> time_ps{};                ///< of the frame, picoseconds, where the file states it
   bool has_cell = false;                          ///< a periodic cell
   std::array<std::int32_t, 3> copies{{1, 1, 1}};  ///< along the cell's vectors, as the input asks for
   std::vector<std::string> attributes{};          ///< names for selections and colours
 };
 SceneFacts facts_of(const LoadedScene& loaded);
+/// What the scene is, for people: "TITLE · ENTRY", where its file says both, else the file's name without its folder.
+std::string title_of(const SceneFacts& facts);
 
 /// Never moved in memory: its trees refer to its spheres.
 struct ShownScene {

@@ -181,6 +181,8 @@ SphereFile SphereFinisher::finish(const RoundingLoss& of_whole) {
   file.spheres = std::move(set_);
   file.spheres.attributes() = std::move(raw_.attributes);
   file.format = std::move(raw_.format);
+  file.title = std::move(raw_.title);
+  file.entry_id = std::move(raw_.entry_id);
   file.frames = raw_.frames;
   file.time_ps = raw_.time_ps;
   file.step = raw_.step;

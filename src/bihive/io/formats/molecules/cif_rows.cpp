@@ -15,7 +15,7 @@ std::string field_of(std::string_view tag) {
   const std::string lower = lower_case(tag);
   for (const char* const table : {"_pdbx_struct_assembly_gen.", "_pdbx_struct_oper_list.", "_struct_conn."})
     if (lower.rfind(table, 0) == 0) return lower;
-  return "";
+  return lower == "_struct.title" || lower == "_entry.id" ? lower : std::string();
 }
 
 // "A,B,C", with blanks or line breaks in between.
@@ -74,6 +74,12 @@ void CifRows::clear() {
 const std::vector<CifRow>& CifRows::rows() {
   if (!pairs_.empty()) rows_.push_back(std::exchange(pairs_, {}));
   return rows_;
+}
+
+std::string value_in(const std::vector<CifRow>& rows, const std::string& tag) {
+  for (const CifRow& row : rows)
+    if (std::string value = value_of(row, tag); !value.empty()) return value;
+  return "";
 }
 
 Assemblies assemblies_from(const std::vector<CifRow>& rows) {

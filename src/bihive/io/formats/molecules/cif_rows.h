@@ -1,4 +1,4 @@
-// The small tables of mmCIF files that state more than atoms: assemblies and connections.
+// The small tables of mmCIF files that state more than atoms: assemblies, connections, title and entry.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace bihive {
 using CifRow = std::unordered_map<std::string, std::string>;
 
 /// Takes tags and values in the order in which the grammar meets them, and keeps the rows of _pdbx_struct_assembly_gen,
-/// _pdbx_struct_oper_list and _struct_conn, whether they stand in loops or as pairs.
+/// _pdbx_struct_oper_list and _struct_conn, _struct.title and _entry.id, whether they stand in loops or as pairs.
 class CifRows {
  public:
   void begin_loop();
@@ -37,6 +37,9 @@ class CifRows {
   std::string pair_field_;
   std::vector<CifRow> rows_;
 };
+
+/// The value of a tag in the first row that has it; empty: none has.
+std::string value_in(const std::vector<CifRow>& rows, const std::string& tag);
 
 /// The assemblies that the rows state.
 Assemblies assemblies_from(const std::vector<CifRow>& rows);

@@ -10,6 +10,7 @@
 #include "bihive/io/formats/molecules/atom_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -79,15 +80,22 @@ class GroReader {
 
   // "..., t= 100.00000 step= 50000"
   void read_title(std::string_view title) {
+    std::size_t end = title.size();
     const auto number_behind = [&](std::string_view key) -> std::optional<double> {
       const std::size_t at = title.rfind(key);
       if (at == std::string_view::npos || (at > 0 && title[at - 1] != ' ')) return std::nullopt;
       const std::string_view rest = trim(title.substr(at + key.size()));
-      return parse_double(rest.substr(0, rest.find(' ')));
+      const std::optional<double> number = parse_double(rest.substr(0, rest.find(' ')));
+      if (number) end = std::min(end, at);
+      return number;
     };
     spheres_.time_ps = number_behind("t=");
     if (const auto step = number_behind("step="); step && *step > -9e15 && *step < 9e15)
       spheres_.step = static_cast<std::int64_t>(*step);
+    // What is before them.
+    title = trim(title.substr(0, end));
+    while (!title.empty() && (title.back() == ',' || title.back() == ';')) title.remove_suffix(1);
+    spheres_.title = title_from(title);
   }
 
   Status read_atom(std::size_t width) {

@@ -20,6 +20,7 @@
 #include "bihive/io/formats/molecules/cif_elements.h"
 #include "bihive/io/formats/molecules/cif_rows.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -172,6 +173,8 @@ class AtomSites {
                                   " no place ('?'), so the file's other atoms are shown");
     spheres_.rules.push_back("atoms: ATOM and HETATM of model " + std::to_string(frame_) + " (from 0)");
     columns_of_atoms_.take(spheres_.attributes);
+    spheres_.title = title_from(value_in(tables_.rows(), "_struct.title"));
+    spheres_.entry_id = entry_id_from(value_in(tables_.rows(), "_entry.id"));
     spheres_.assemblies = assemblies_from(tables_.rows());
     if (!spheres_.assemblies.parts.empty())
       spheres_.attributes.texts.push_back(printable_texts(label_chains_.take(std::string(kAssemblyChains))));

@@ -10,6 +10,7 @@
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/text/continued_lines.h"
 #include "bihive/io/text/fields.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -98,8 +99,7 @@ class Mol2Reader {
     has_atoms_ = false;
     ++frames_;
     if (!scanner_.next_line()) return scanner_.line_error("the file ends before the name of a molecule");
-    const std::string name = printable(trim(scanner_.line()));
-    if (is_wanted() && !name.empty()) spheres_.rules.push_back("molecule: " + name);
+    if (is_wanted()) spheres_.title = title_from(scanner_.line());
     if (!next_line()) return scanner_.line_error("the file ends before the number of atoms");
     const Result<std::int64_t> count = take_count(scanner_, "the number of atoms");
     if (!count) return count.error();

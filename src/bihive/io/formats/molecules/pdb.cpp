@@ -16,6 +16,7 @@
 #include "bihive/io/formats/molecules/pdb_bonds.h"
 #include "bihive/io/formats/molecules/pdb_columns.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
+#include "bihive/io/formats/molecules/pdb_title.h"
 #include "bihive/io/formats/molecules/pqr_line.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -59,6 +60,8 @@ class PdbReader {
       } else if (record == "ENDMDL" || trim(record) == "MODEL" || trim(record) == "END") {
         if (in_model) notes.end_frame(scanner_);
         in_model = false;
+      } else if (models == 0 && pass_.index == nullptr) {
+        title_.add_line(scanner_.line());
       }
     }
     if (in_model) notes.end_frame(scanner_);
@@ -124,6 +127,7 @@ class PdbReader {
       for_lines(place, [this](std::string_view line) { assemblies_.add_line(line); });
     for (const TextPlace& place : index.bond_lines)
       for_lines(place, [this](std::string_view line) { bonds_.add_line(line); });
+    take_title_of_file();
     if (index.cell_lines.empty()) return;
     const std::int64_t end = index.frames[static_cast<std::size_t>(frame_)].end;
     // The last cell before the model's end, or the first one.
@@ -137,6 +141,15 @@ class PdbReader {
     }
     for_lines(index.cell_lines[first - std::min<std::size_t>(first, 1)],
               [this](std::string_view line) { read_cell(line); });
+  }
+
+  void take_title_of_file() {
+    FileText head{*pass_.file, 0, pass_.index->frames[0].end, 0, {}};
+    for (TextScanner lines(head); lines.next_line();) {
+      const std::string_view record = lines.line().substr(0, 6);
+      if (record.substr(0, 4) == "ATOM" || record == "HETATM") return;
+      title_.add_line(lines.line());
+    }
   }
 
   Status read_atom() {
@@ -206,6 +219,8 @@ class PdbReader {
 
   void finish(std::int64_t models) {
     spheres_.frames = models;
+    spheres_.title = title_.title();
+    spheres_.entry_id = title_.entry_id();
     spheres_.rules.push_back("atoms: ATOM and HETATM records of model " + std::to_string(frame_) + " (from 0)");
     elements_.take(spheres_, scanner_.file());
     columns_.take(spheres_.attributes);
@@ -233,6 +248,7 @@ class PdbReader {
   Alternates alternates_;
   PdbAssemblies assemblies_;
   PdbBonds bonds_;
+  PdbTitle title_;
   ResidueNames residue_names_;
   std::string cell_warning_;
   std::int64_t unreadable_ = 0;

@@ -9,6 +9,7 @@
 #include "bihive/io/formats/formats.h"
 #include "bihive/io/text/continued_lines.h"
 #include "bihive/io/text/fields.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -76,12 +77,11 @@ class SdfReader {
   }
 
   Status read_record(bool wanted) {
-    const std::string name = printable(trim(scanner_.line()));
+    if (wanted) spheres_.title = title_from(scanner_.line());
     for (int line = 0; line < 3; ++line)
       if (!scanner_.next_line()) return cut("three lines of names and a line of counts");
     const std::string_view line = scanner_.line();
     const bool v3000 = line.find("V3000") != std::string_view::npos;
-    if (wanted && !name.empty()) spheres_.rules.push_back("molecule: " + name);
     if (v3000) return read_v3000(wanted);
 
     const auto atoms = parse_int(columns_of_line(line, 0, 3)), bonds = parse_int(columns_of_line(line, 3, 3));

@@ -9,6 +9,7 @@
 #include "bihive/io/formats/format.h"
 #include "bihive/io/formats/molecules/xyz_comment.h"
 #include "bihive/io/text/sphere_table.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -112,6 +113,19 @@ void take_when_of(const XyzComment& comment, RawSpheres& spheres) {
   if (step && *step == std::floor(*step) && std::abs(*step) < 0x1p53) spheres.step = static_cast<std::int64_t>(*step);
 }
 
+// The value of `title`; else a comment without keys and values, unless it is a number or ends in one behind a colon
+// ("Atoms. Timestep: 0").
+std::string title_of(std::string_view comment, const XyzComment& entries) {
+  if (const auto title = entries.find("title")) return title_from(*title);
+  if (comment.find('=') != std::string_view::npos) return "";
+  const std::size_t colon = comment.rfind(':');
+  const std::string_view last = colon == std::string_view::npos ? comment : comment.substr(colon + 1);
+  TextScanner numbers(last, "");
+  bool all_numbers = numbers.next_line();
+  for (std::string_view field; all_numbers && numbers.next_field(field);) all_numbers = parse_double(field).has_value();
+  return all_numbers ? std::string() : title_from(comment);
+}
+
 // The table that a frame's comment line describes.
 Result<SphereTable> table_of(const TextScanner& scanner, const XyzComment& comment, const ColumnChoice& choice) {
   if (Status status = check_comment(scanner, comment); !status) return status.error();
@@ -199,6 +213,7 @@ Result<RawSpheres> read_xyz(const TextScanner& text, const FramePass& pass) {
       return cut(0);
     }
     const XyzComment comment(scanner.line());
+    const std::string title = frames == frame ? title_of(scanner.line(), comment) : std::string();
     Result<SphereTable> table = table_of(scanner, comment, pass.columns);
     if (!table) return table.error();
     std::optional<Cell> cell;
@@ -228,6 +243,7 @@ Result<RawSpheres> read_xyz(const TextScanner& text, const FramePass& pass) {
     spheres = std::move(*table).take();
     note_id_order(order, scanner.file(), first_line, spheres);
     spheres.cell = cell;
+    spheres.title = title;
     spheres.rules.insert(spheres.rules.begin(), "columns: " + columns);
     take_when_of(comment, spheres);
   }
