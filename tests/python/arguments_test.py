@@ -200,13 +200,13 @@ class Arguments(ProgramTest):
     def test_every_public_name_is_tried(self):
         tried = {"BodyHits", "BodyTree", "Spheres", "Sticks", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
                  "again", "angle", "buried_area", "colour_map", "compare", "contacts", "convert", "dihedral", "distance", "film", "linear", "measure", "page", "porosity", "read", "render", "sasa", "save_page", "select", "stats",
-                 "verify", "view", "volume"}
+                 "verify", "view", "volume", "widget"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
-        self.assertEqual(methods, {"save", "moved", "with_columns"})
+        self.assertEqual(methods, {"save", "moved", "to_html", "with_columns"})
         methods = {name for name, one in vars(bh.Picture).items() if callable(one) and not name.startswith("_")}
-        self.assertEqual(methods, {"layer", "save", "detach", "rays", "project", "unproject"})
+        self.assertEqual(methods, {"layer", "save", "detach", "rays", "project", "to_html", "unproject"})
         methods = {name for name, one in vars(bh.Tree).items() if callable(one) and not name.startswith("_")}
         self.assertEqual(methods, {"closest", "occluded", "all_hits", "nearest", "within", "contains", "overlaps", "count_within", "pairs", "update"})
 
@@ -315,6 +315,15 @@ class Arguments(ProgramTest):
 
         page.__signature__ = inspect.signature(bh.page)
         self.try_all(page, {"source": self.spheres}, options=["samples", "floor"])
+
+        def widget(source=self.spheres, **options):
+            try:
+                return bh.widget(source, **options)
+            except bh.MissingError:
+                return None
+
+        widget.__signature__ = inspect.signature(bh.widget)
+        self.try_all(widget, {"source": self.spheres}, options=["samples", "floor"])
         for name in ("html", "name"):
             for label, value in HOSTILE.items():
                 self.judge(bh.Page, {"html": "", "name": "", name: value}, "Page", label)

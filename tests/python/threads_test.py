@@ -85,7 +85,7 @@ class Threads(ProgramTest):
         arguments = {"__getitem__": ("charge",), "core.select": ("element C and charge > 0", "select", True), "core.written": ("csv",),
                      "core.measured": (np.array([[0, 1, 2], [4, 3, 9]]), True), "core.statistics": ([],), "core.what_there_is": ("element Fe",),
                      "core.column": ("part",)}
-        calls = calls_of(s, self.folder, arguments, left_out={"save", "moved", "with_columns", "core.statistics", "core.part", "core.moved", "core.with_columns", "core.with_bonds"})
+        calls = calls_of(s, self.folder, arguments, left_out={"save", "to_html", "moved", "with_columns", "core.statistics", "core.part", "core.moved", "core.with_columns", "core.with_bonds"})
         calls["moved"] = lambda: s.moved(s.xyz + 1).xyz
         calls["with_columns"] = lambda: s.with_columns({"more": s.radius})["more"]
         calls["save"] = lambda: s.save(self.path_of_thread("csv"))
@@ -121,7 +121,7 @@ class Threads(ProgramTest):
         picture = bh.render(spheres(), **SMALL)
         arguments = {"layer": ("normal",), "core.layer": ("id",), "__getitem__": (), "project": (np.eye(3),), "unproject": (1, 2, 3),
                      "core.camera_rays": (np.ones(2), np.ones(2)), "core.camera_places": (np.eye(3),)}
-        calls = calls_of(picture, self.folder, arguments, left_out={"save", "detach", "core.save", "core.save_exr", "core.save_tiff", "core.detach"})
+        calls = calls_of(picture, self.folder, arguments, left_out={"save", "to_html", "detach", "core.save", "core.save_exr", "core.save_tiff", "core.detach"})
         calls["save"] = lambda: picture.save(self.path_of_thread("png"))
         calls["save_tiff"] = lambda: picture.save(self.path_of_thread("tif"))
         calls["save_exr"] = lambda: picture.save(self.path_of_thread("exr"), layers="radiance,depth")

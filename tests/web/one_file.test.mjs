@@ -130,6 +130,62 @@ test('what the page shows is saved as one page, and again from that', async () =
   await last.context.close();
 });
 
+test('a widget of a notebook tells Python of camera and pins, and takes a camera', async () => {
+  const html = readFileSync(written('widget.html', water, '--eye', '0,0,9', '--look-at', '0,0,0'));
+  const module = readFileSync(join(process.env.SOURCE, 'bindings/python/bihive/_widget.js'), 'utf8');
+  const file = join(scratch, 'widget-frame.html');
+  writeFileSync(file, '<!doctype html><div id="cell" style="width: 700px"></div>');
+  const { context, page, complaints } = await open_file(file);
+  // The part of a model that anywidget gives to render().
+  await page.evaluate(async ([text, base64]) => {
+    const { default: widget } = await import(URL.createObjectURL(new Blob([text], { type: 'text/javascript' })));
+    const bytes = Uint8Array.from(atob(base64), (byte) => byte.charCodeAt(0));
+    const state = { name: 'water', height: 500, page: new DataView(bytes.buffer), camera: {}, pins: [], picked: null };
+    const listeners = new Set();
+    window.saved = 0;
+    window.model = {
+      get: (name) => state[name],
+      set: (name, value) => (state[name] = value),
+      save_changes: () => ++window.saved,
+      on: (event, listener) => event === 'change:camera' && listeners.add(listener),
+      off: (event, listener) => listeners.delete(listener),
+      of_python: (camera) => {
+        state.camera = camera;
+        for (const listener of listeners) listener();
+      },
+      listeners,
+    };
+    window.end = widget.render({ model: window.model, el: document.getElementById('cell') });
+  }, [module, html.toString('base64')]);
+  await page.waitForSelector('iframe[title=water]');
+  const frame = with_cards(await (await page.$('iframe')).contentFrame());
+  await frame.waitForSelector('#picture[data-settled=true]');
+  const value = (name) => page.evaluate((called) => window.model.get(called), name);
+  await page.waitForFunction(() => window.model.get('camera').eye?.[2] === 9 && window.saved > 0);
+  await frame.focus('#picture');
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForFunction(() => window.model.get('camera').eye[2] !== 9);
+  await frame.waitForSelector('#picture[data-settled=true]');
+  const turned = (await value('camera')).eye;
+  // Python looks from elsewhere; the page does not send the same camera for ever.
+  await page.evaluate(() => window.model.of_python({ eye: [0, 9, 1], look_at: [0, 0, 0] }));
+  await page.waitForFunction(() => window.model.get('camera').eye[1] === 9 && window.model.get('camera').projection);
+  assert.notDeepEqual(turned, (await value('camera')).eye);
+  await frame.waitForSelector('#picture[data-settled=true]');
+  await frame.focus('#picture');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => window.model.get('pins').length === 1);
+  const [picked] = [await value('picked')];
+  assert.deepEqual(await value('pins'), [picked.sphere]);
+  assert.equal(picked.attributes.element, 'O');
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => window.model.get('pins').length === 0 && window.model.get('picked') === null);
+  await page.evaluate(() => window.end());
+  assert.equal(await page.evaluate(() => window.model.listeners.size), 0);
+  no_complaints(complaints);
+  await context.close();
+});
+
 test('in the frame of a notebook, which gives it no origin, it works, and saves pictures', async () => {
   const words = ['--style', 'studio', '--eye', '2,3,9', '--look-at', '0,0.3,0'];
   const html = readFileSync(written('notebook.html', water, ...words), 'utf8');

@@ -1,5 +1,6 @@
 // The page around the frame: the component <bihive-viewer> (web/viewer/bihive-viewer.js), which speaks for it. Messages go
-// to and come from a page of the same origin alone: names of files are private.
+// to and come from a page of the same origin alone: names of files are private. A page that is one file may be the text of
+// a frame (srcdoc), as in a notebook: who gave that text knows all of it, and may hand in a port for the same messages.
 import { element } from './dom';
 import { has_host, show_parts } from './embedded';
 import type { Camera, Facts, Look, Picked, Reading, Settings, Source } from './protocol';
@@ -14,6 +15,7 @@ type Told =
   | { bihive: 'answer'; id: number; value: unknown }
   | { bihive: 'camera'; camera: Camera }
   | { bihive: 'picked'; x: number; y: number; picked: Picked | null }
+  | { bihive: 'pins'; pins: Picked[] } // through a port
   | { bihive: 'entered' | 'left'; by_key?: boolean };
 
 /** From the page around. */
@@ -52,8 +54,19 @@ export class Host {
   private waiting: Asked | null = null; // until these looks are taken
   private asked_look: AskedLook = {}; // with the last scene
   private last_camera = '';
+  private last_pins = '[]';
   private shown = false;
+  private port: MessagePort | null = null;
   private begun = (_: WebAssembly.Module | null): void => {};
+
+  constructor() {
+    if (parent === window || location.href !== 'about:srcdoc') return;
+    addEventListener('message', ({ source, data, ports }: MessageEvent<{ bihive?: string }>) => {
+      if (source !== parent || data?.bihive !== 'port' || !ports[0]) return;
+      this.port = ports[0];
+      if (this.shown) this.use_port();
+    });
+  }
 
   /** Resolves to the compiled module, or null, when the host begins; at once if there is none. */
   begin(threads: boolean): Promise<WebAssembly.Module | null> {
@@ -80,7 +93,14 @@ export class Host {
     this.tell({ bihive: 'started' });
   }
 
+  // What was asked meanwhile waits in the port until there is a scene.
+  private use_port(): void {
+    this.port!.onmessage = ({ data }: MessageEvent<Asked>) => data?.bihive && this.take(data);
+    this.port!.postMessage({ bihive: 'camera', camera: JSON.parse(this.last_camera) } satisfies Told);
+  }
+
   private tell(told: Told): void {
+    if (this.port) return this.port.postMessage(told);
     // A frame without an origin, as in a notebook, has nobody to speak to.
     if (parent !== window && location.origin !== 'null') parent.postMessage(told, location.origin);
   }
@@ -128,9 +148,11 @@ export class Host {
   // What the worker answers.
 
   loaded(id: number, { name, format, spheres, frames }: Facts, settings: Settings, look: Look): void {
+    const is_first = !this.shown;
     this.shown = true;
     this.tell({ bihive: 'loaded', id: this.taken(id), name, format, spheres, frames });
     this.settings(settings);
+    if (is_first && this.port) this.use_port();
     // What did not fit was left out, with the rest. Asked for one by one, the right ones are taken, and the fault is told.
     const refused = Object.entries(this.asked_look).some(([member, text]) => look[member as keyof AskedLook] !== text);
     const asked = this.asked_look;
@@ -172,6 +194,13 @@ export class Host {
     if (place) return this.tell({ bihive: 'picked', ...place, picked });
     const of_host = this.taken(id);
     if (of_host !== null) this.tell({ bihive: 'answer', id: of_host, value: picked });
+  }
+
+  pinned(pins: Picked[]): void {
+    const ids = JSON.stringify(pins.map(({ sphere }) => sphere));
+    if (ids === this.last_pins) return;
+    this.last_pins = ids;
+    if (this.port) this.tell({ bihive: 'pins', pins });
   }
 
   /** False: the user has asked for the picture. */

@@ -16,6 +16,8 @@ export interface InspectActions {
   look_at(eye: Vec3, look_at: Vec3): void;
   /** A click on the picture: true if it meant something else. */
   dismiss(): boolean;
+  /** These spheres are pinned now. */
+  pinned(pins: Picked[]): void;
   /** Begins a row of the look for these spheres. */
   select(selection: string): void;
   /** Asks for the measure of these spheres in all frames. */
@@ -282,6 +284,7 @@ export class Inspector {
 
   private set_pins(pins: Picked[], measure = ''): void {
     this.pins = pins;
+    this.actions.pinned(pins);
     this.box.hidden = pins.length === 0;
     this.list.replaceChildren(
       ...pins.map((picked) => {

@@ -309,6 +309,7 @@ const inspector = new Inspector({
     change({ camera: { eye: [...eye], look_at: [...look_at] } });
   },
   dismiss: () => cards.dismiss(),
+  pinned: (pins) => host.pinned(pins),
   select: (selection) => {
     cards.show('show');
     looks.begin_row(selection);

@@ -11,7 +11,7 @@ render, film        pictures and films of them; Orthographic, Perspective, Look,
 verify, again       a PNG of a picture drawn again and compared, or with changes
 Tree                hits of rays, spheres near points, pairs of spheres
 BodyTree, Sticks    hits of rays on spheres and sticks
-view                the page in a browser, with spheres from memory
+view                the page in a browser, with spheres from memory; page and widget in a notebook, save_page as a file
 select, stats       spheres that match an expression; statistics of the trees
 distance            between centres of spheres; angle, dihedral
 compare             trees and grids on the same spheres, by steps and by time
@@ -36,6 +36,7 @@ from ._spheres import Spheres, colour_map, convert, read, select, stats
 from ._tree import Tree
 from ._union_measures import Contacts, Measures, buried_area, contacts, measure, porosity, sasa, volume
 from ._view import Page, View, page, save_page, view
+from ._widget import widget
 
 __all__ = [
     "BodyHits",
@@ -88,4 +89,5 @@ __all__ = [
     "verify",
     "view",
     "volume",
+    "widget",
 ]

@@ -11,12 +11,15 @@ import numpy as np
 from . import _bihive
 from ._arrays import numbers, vectors
 from ._checks import boolean, path_of, text_of
-from ._errors import bad_argument, found, writing
+from ._errors import UsageError, bad_argument, found, writing
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
 __all__ = ["Picture"]
+
+# What a picture was asked of: source, camera, style, select, looks, options of render().
+Asked = tuple[Any, Any, Any, Any, Any, dict[str, Any]]
 
 
 class Picture:
@@ -27,6 +30,8 @@ class Picture:
 
     It keeps its scene for layer(); detach() lets that go. A pickled picture has its pixels alone.
     """
+
+    _asked: Optional[Asked] = None
 
     def __init__(self, core: _bihive.Picture) -> None:
         if not isinstance(core, _bihive.Picture):
@@ -155,10 +160,31 @@ class Picture:
             else:
                 self._core.save(os.fsencode(text), metadata)
 
+    def to_html(self) -> str:
+        """The page with what the picture shows, in which it can be turned, measured and changed: one document of HTML of some 2 MB
+        plus data, which opens without a network or a server.
+
+        The spheres, camera, style, select, looks and options of render() are those of the picture; what pictures alone have, such
+        as size and samples, is left out. A style that is a Style or a dictionary, and arrays for colours are refused: the page
+        takes names, and columns of the spheres.
+
+        Raises UsageError of a picture without a scene: detached, pickled, drawn with the camera of another picture, or not made by
+        render(); MissingError where the program ``bihive`` or its page (``make web``) is missing.
+        """
+        from ._view import page_of_picture
+
+        if self._asked is None:
+            raise UsageError("the picture keeps no scene: it was detached, pickled, drawn like another picture, or not made by render()")
+        return page_of_picture(self._asked)
+
     def detach(self) -> Picture:
         """Releases the scene and its tree, whose memory may be large: layer() then fails. Returns the picture."""
+        self._asked = None
         self._core.detach()
         return self
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_core": self._core}
 
     def _repr_png_(self) -> Optional[bytes]:
         return self._core.png()

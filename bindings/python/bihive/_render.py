@@ -162,4 +162,8 @@ def render(
     with LinkTable(of_picture):
         words = picture_words(select, camera, style, given, of_picture, None if made is None else len(made))
         all_words: list[Union[str, bytes]] = [*words, "--", os.fsencode(path) if path is not None else "spheres"]
-        return draw(made, all_words, given, style_text(style), camera if isinstance(camera, Picture) else None, progress)
+        picture = draw(made, all_words, given, style_text(style), camera if isinstance(camera, Picture) else None, progress)
+    # A picture would keep the one before it, and that the one before.
+    if not isinstance(camera, Picture):
+        picture._asked = (path if made is None else made, camera, style, select, looks, dict(options))
+    return picture

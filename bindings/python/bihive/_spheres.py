@@ -506,6 +506,30 @@ class Spheres:
         known = ", ".join(self.columns)
         return f"<bihive.Spheres: {count} sphere{'' if count == 1 else 's'}{source}{', ' + known if known else ''}>"
 
+    def to_html(self, **arguments: Any) -> str:
+        """The page with these spheres inside, one document of HTML of some 2 MB plus data: the text that save_page() writes, with
+        the same arguments (camera, style, select, looks, and options of render()).
+
+        Raises MissingError where the program ``bihive`` or its page (``make web``) is missing.
+        """
+        from ._view import page
+
+        return page(self, **arguments).html
+
+    def _repr_png_(self) -> Optional[bytes]:
+        """A small picture in a notebook, of sets that are drawn in a moment."""
+        from ._errors import Error
+        from ._render import render
+
+        if not 0 < len(self) <= _MOST_SHOWN:
+            return None
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                return render(self, size=(480, 270), progress=False)._repr_png_()
+        except Error:
+            return None
+
     def __getstate__(self) -> dict[str, Any]:
         core = self._core
         state: dict[str, Any] = {"format": core.format, "name": core.name, "xyz": self.xyz, "radius": self.radius}

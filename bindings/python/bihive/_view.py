@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
-from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Iterator, Optional, Sequence, Union
 
+from . import _bihive
 from ._adapt import spheres_of
 from ._camera import Look, Style
 from ._checks import boolean, path_of
-from ._errors import InputError, MissingError, UsageError, bad_argument, found, shortened
+from ._errors import Error, InputError, MissingError, UsageError, bad_argument, found, shortened
 from ._film import environment, program
-from ._picture import Picture
+from ._picture import Asked, Picture
 from ._render import Camera, looks_of, picture_words
 from ._spheres import Spheres, check_readable
 
@@ -26,14 +28,17 @@ __all__ = ["Page", "View", "page", "save_page", "view"]
 
 
 _LONGEST_NAME = 60  # characters: a folder takes names of 255 bytes
-_FRAME_PX = 520  # height of the page in a notebook
+FRAME_PX = 520  # height of the page in a notebook
+# What pages take of the options of a picture. They have their own number of samples.
+_OF_PAGES = set(_bihive.options_of_pages()) - {"samples"}
 
 
 class View:
     """A page that is served until close(), the end of a ``with``, or the end of Python."""
 
-    def __init__(self, server: subprocess.Popen[str], url: str, folder: str, descriptors: list[int]) -> None:
+    def __init__(self, server: subprocess.Popen[str], url: str, folder: str, descriptors: list[int], words: list[str], name: str) -> None:
         self._server, self._folder, self._descriptors = server, folder, descriptors
+        self._words, self._name = words, name
         self.url = url
         """The page's address on this machine."""
 
@@ -60,7 +65,14 @@ class View:
         return f"<bihive.View: {self.url}{'' if self.is_open else ', closed'}>"
 
     def _repr_html_(self) -> str:
-        return f'<a href="{self.url}" target="_blank">{self.url}</a>' if self.is_open else "closed"
+        if not self.is_open:
+            return "closed"
+        address = f'<a href="{self.url}" target="_blank">{self.url}</a>'
+        # The address is one of the machine of the kernel, which the reader's browser may not reach.
+        try:
+            return Page(_text_of_page(self._words), self._name)._repr_html_() + address
+        except Error:
+            return address
 
 
 class Page:
@@ -69,23 +81,26 @@ class Page:
     There the page is in a frame of its own, which can neither reach the notebook nor a network.
     """
 
-    def __init__(self, html: str, name: str) -> None:
+    def __init__(self, html: str, name: str, height: int = FRAME_PX) -> None:
         if not isinstance(html, str) or not isinstance(name, str):
             raise TypeError(f"a Page is made by page(), not of {found(html if not isinstance(html, str) else name)}")
         self.html = html
         """All of it, a document of HTML."""
-        self._name = name
+        self.name = name
+        """What the frame is called."""
+        self.height = height
+        """Of the frame, in pixels."""
 
     def _repr_html_(self) -> str:
         from html import escape
 
         return (
-            f'<iframe title="{escape(self._name)}" sandbox="allow-scripts allow-downloads" allow="fullscreen" '
-            f'style="width: 100%; height: {_FRAME_PX}px; border: 0" srcdoc="{escape(self.html)}"></iframe>'
+            f'<iframe title="{escape(self.name)}" sandbox="allow-scripts allow-downloads" allow="fullscreen" '
+            f'style="width: 100%; height: {self.height}px; border: 0" srcdoc="{escape(self.html)}"></iframe>'
         )
 
     def __repr__(self) -> str:
-        return f"<bihive.Page: {self._name}, {len(self.html) / 1e6:.1f} MB>"
+        return f"<bihive.Page: {self.name}, {len(self.html) / 1e6:.1f} MB>"
 
 
 def _end(server: subprocess.Popen[str]) -> None:
@@ -156,7 +171,9 @@ def save_page(
 
     Raises MissingError where the program ``bihive`` or its page (``make web``) is missing.
     """
-    _write_page(source, path_of("path", path), camera, style, select, looks, dict(options))
+    out = path_of("path", path)
+    with _page_input(source) as (words, count):
+        _run_web(["--html", out, *_words_of_page(camera, style, select, looks, dict(options), count), "--", *words])
 
 
 def page(
@@ -173,34 +190,59 @@ def page(
     All arguments: as of save_page(). Nothing is served, so it works in a notebook on another machine, without a network, and after
     an export as HTML; each one makes the notebook some 2 MB larger.
     """
+    with _page_input(source) as (words, count):
+        chosen = _words_of_page(camera, style, select, looks, dict(options), count)
+        return Page(_text_of_page([*chosen, "--", *words]), _name_of(source))
+
+
+def _name_of(source: Any) -> str:
+    return os.path.basename(os.fspath(source)) if isinstance(source, (str, os.PathLike)) else str(getattr(source, "name", "spheres"))
+
+
+@contextlib.contextmanager
+def _page_input(source: Any) -> Iterator[tuple[list[str], Optional[int]]]:
+    """As _input_of(), as long as it is needed."""
+    import tempfile
+
+    folder = tempfile.mkdtemp(prefix="bihive_view_")
+    descriptors: list[int] = []
+    try:
+        yield _input_of(source, folder, descriptors)
+    finally:
+        _let_go(folder, descriptors)
+
+
+def _words_of_page(camera: Any, style: Any, select: Any, looks: Any, of_picture: dict[str, Any], count: Optional[int]) -> list[str]:
+    if isinstance(camera, Picture) or isinstance(style, (dict, Style)):
+        raise bad_argument("camera" if isinstance(camera, Picture) else "style", "of a page is a name")
+    return picture_words(select, camera, style, looks_of(looks, of_picture), of_picture, count)
+
+
+def _run_web(words: list[str]) -> None:
+    import subprocess
+
+    done = subprocess.run(
+        [program(), "web", *words], env=environment(), stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace"
+    )
+    if done.returncode != 0:
+        raise _failure(done.returncode, done.stderr, "bihive web")
+
+
+def _text_of_page(words: list[str]) -> str:
+    """The page as one file that `bihive web` writes for these arguments."""
     import tempfile
 
     with tempfile.TemporaryDirectory(prefix="bihive_page_") as folder:
         out = os.path.join(folder, "page.html")
-        _write_page(source, out, camera, style, select, looks, dict(options))
+        _run_web(["--html", out, *words])
         with open(out, encoding="utf-8") as file:
-            html = file.read()
-    name = os.path.basename(os.fspath(source)) if isinstance(source, (str, os.PathLike)) else getattr(source, "name", "spheres")
-    return Page(html, str(name))
+            return file.read()
 
 
-def _write_page(source: Any, out: str, camera: Any, style: Any, select: Any, looks: Any, of_picture: dict[str, Any]) -> None:
-    import subprocess
-    import tempfile
-
-    if isinstance(camera, Picture) or isinstance(style, (dict, Style)):
-        raise bad_argument("camera" if isinstance(camera, Picture) else "style", "of a page is a name")
-    folder = tempfile.mkdtemp(prefix="bihive_view_")
-    descriptors: list[int] = []
-    try:
-        words, count = _input_of(source, folder, descriptors)
-        chosen = picture_words(select, camera, style, looks_of(looks, of_picture), of_picture, count)
-        command = [program(), "web", "--html", out, *chosen, "--", *words]
-        done = subprocess.run(command, env=environment(), stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
-        if done.returncode != 0:
-            raise _failure(done.returncode, done.stderr, "bihive web")
-    finally:
-        _let_go(folder, descriptors)
+def page_of_picture(asked: Asked) -> str:
+    """The page of what a picture was drawn of; what pictures alone have is left out."""
+    source, camera, style, select, looks, options = asked
+    return page(source, camera=camera, style=style, select=select, looks=looks, **{k: v for k, v in options.items() if k in _OF_PAGES}).html
 
 
 def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = None) -> View:
@@ -208,8 +250,9 @@ def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = N
 
     source: Spheres, atoms of ASE, an AtomGroup or Universe of MDAnalysis, the path of a file, or a built-in name. Spheres keep
         their colours, cell and attributes.
-    port: of 127.0.0.1; left out: a free one. browser: whether one is opened; left out: not from within a notebook, where the
-        answer shows the address.
+    port: of 127.0.0.1; left out: a free one. browser: whether one is opened; left out: not from within a notebook.
+
+    In a notebook the answer shows the page in the cell, as page() does, and its address.
 
     The computation is the browser's own; nothing leaves this machine. Raises MissingError where the program ``bihive`` or its
     page (``make web``) is missing.
@@ -228,13 +271,13 @@ def view(source: Any, *, port: Optional[int] = None, browser: Optional[bool] = N
     server: Optional[subprocess.Popen[str]] = None
     try:
         words, _ = _input_of(source, folder, descriptors)
-        words = [program(), "web", "--json", "--port", str(port or 0), *([] if browser else ["--no-browser"]), "--", *words]
-        server = subprocess.Popen(words, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        command = [program(), "web", "--json", "--port", str(port or 0), *([] if browser else ["--no-browser"]), "--", *words]
+        server = subprocess.Popen(command, env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         assert server.stdout is not None and server.stderr is not None
         line = server.stdout.readline()
         if not line:
             raise _failure(server.wait(), server.stderr.read(), "bihive web")
-        made = View(server, json.loads(line)["url"], folder, descriptors)
+        made = View(server, json.loads(line)["url"], folder, descriptors, ["--", *words], _name_of(source))
     except BaseException:
         if server is not None:
             _end(server)

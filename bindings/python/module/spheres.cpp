@@ -536,6 +536,12 @@ std::vector<std::pair<std::string, std::string>> options_of_pictures() {
 
 void bind_spheres(py::module_& module) {
   module.def("options", options_of_pictures);
+  module.def("options_of_pages", [] {
+    std::vector<std::string> names;
+    for (const RequestOption<PictureRequest>& row : picture_options())
+      if (row.in_window) names.emplace_back(row.id);
+    return names;
+  });
   module.def("actions", look_action_names);
   module.def("colour_maps", colour_map_names);
   module.def("colour_map_of_file", [](const std::string& path) {
