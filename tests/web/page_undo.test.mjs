@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { and_settle, link_state, no_complaints, open_own, open_page, scratch, set_value, settled, shown_picture, small, with_page } from './page_kit.mjs';
+import { and_settle, link_state, no_complaints, open_own, open_page, scratch, set_value, settled, shown_picture, small, with_cards, with_page } from './page_kit.mjs';
 
 const kit = with_page();
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -173,6 +173,46 @@ test('a reload brings back the file, the state and the history, until it is forg
   await page.goto(kit.server.url);
   await settled(page);
   assert.doesNotMatch(await page.textContent('#facts'), /three/);
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('files that were opened before can be opened again, in another tab too, until they are forgotten', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  const file = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+  assert.ok(await page.evaluate(() => document.querySelector('#card_open .recent').parentElement.hidden), 'none yet');
+  await open_own(page, file('one.xyz', '1\na <b>title</b>\nC 0 0 0\n'), '1 sphere');
+  await open_own(page, file('two.csv', 'x,y,z,r\n0,0,0,1\n3,0,0,1\n'), '2 spheres');
+  await open_own(page, own_file, '3 spheres');
+  const listed = (from, card = 'open') => from.$$eval(`#card_${card} .recent li`, (all) => all.map((one) => one.innerText.replace(/\s+/g, ' ').trim()));
+  await page.unfold('#card_open .recent');
+  assert.deepEqual(await listed(page), ['two.csv 1 kB ×', 'a <b>title</b> one.xyz · 1 kB ×'], 'the newest first, without the one that is shown');
+
+  const other = with_cards(await context.newPage());
+  await other.goto(kit.server.url);
+  await settled(other);
+  await other.unfold('#card_open .recent');
+  assert.equal((await listed(other)).length, 3);
+  await other.unfold('#card_scene .recent');
+  assert.equal((await listed(other, 'scene')).length, 3, 'below what the scene is, too');
+  await and_settle(other, () => other.click('#card_scene .recent_open >> text=two.csv'));
+  assert.match(await other.textContent('#facts'), /^two\.csv: 2 spheres/);
+  await other.click('#card_open .recent [aria-label="Forget one.xyz"]');
+  await other.waitForFunction(() => !document.querySelector('#card_open .recent').textContent.includes('one.xyz'));
+  assert.equal(await other.evaluate(() => document.activeElement.closest('.recent') !== null), true, 'the focus stays in the list');
+
+  await other.click('#forget');
+  await other.waitForFunction(() => document.getElementById('kept').textContent.startsWith('Nothing'));
+  assert.deepEqual(await listed(other), []);
+  // Another radius reads it again, and does not keep it.
+  await apart(other, () => set_value(other, '#radius_scale', 2));
+  const left = await other.evaluate(async () => {
+    const request = indexedDB.open('bihive recent');
+    await new Promise((done) => (request.onsuccess = done));
+    const all = request.result.transaction('files').objectStore('files').getAllKeys();
+    return new Promise((done) => (all.onsuccess = () => done(all.result)));
+  });
+  assert.deepEqual(left, []);
   no_complaints(complaints);
   await context.close();
 });

@@ -78,7 +78,8 @@ export class Keeper {
   private timer = 0;
   private last: Promise<unknown> = Promise.resolve(); // the last work on the database
 
-  constructor() {
+  /** `forget_more`: what else the page keeps. */
+  constructor(private readonly forget_more: () => Promise<void>) {
     element('forget').addEventListener('click', () => void this.forget());
   }
 
@@ -169,14 +170,14 @@ export class Keeper {
       const stores = base.transaction(['states', 'files'], 'readwrite');
       await Promise.all(['states', 'files'].map((name) => done(stores.objectStore(name).clear())));
     });
-    await this.last;
+    await Promise.all([this.last, this.forget_more()]);
     this.say();
     element('kept').focus(); // the button is gone
   }
 
   private say(): void {
     const name = this.own?.file.name;
-    element('forget').hidden = !this.base || this.forgotten || !this.fits;
+    element('forget').hidden = !this.base || this.forgotten;
     element('kept').textContent = !this.base
       ? 'This browser keeps nothing for the page: a reload begins anew.'
       : this.forgotten

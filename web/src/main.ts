@@ -23,6 +23,7 @@ import { begin_load, busy, end_load, fail, note } from './messages';
 import { PlayerBar } from './player';
 import { listen_for_pointers } from './pointer';
 import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Move, Reading, Settings, Source } from './protocol';
+import { RecentFiles } from './recent';
 import { ReadingControls } from './reading_controls';
 import { Saving } from './saving';
 import {
@@ -120,6 +121,7 @@ const engine = new Engine(
       cut.begin();
       look_answered = look_serial;
       keeper?.show(source, chosen);
+      recent?.add(chosen, answer.facts.title, source.reading);
       if (now?.past !== 'same') undo.begin(snapshot()!, now?.past ?? null);
       else if (!now.undone) undo.act();
       for (const text of answer.notes) note(text, answer.id);
@@ -329,7 +331,14 @@ const thesis = new ThesisDialog({
   goes_on_from: (result) => result['engine'] === settings?.engine && result['version'] === program_version,
 });
 
-const keeper = is_embedded || is_one_file ? null : new Keeper();
+const keeps = !is_embedded && !is_one_file;
+const recent = keeps
+  ? new RecentFiles((own, reading) => {
+      forget_asked();
+      void open(wanted_files(own, reading), own.file.name, null, own);
+    })
+  : null;
+const keeper = keeps ? new Keeper(() => recent!.forget_all()) : null;
 const undo = new Undo({ restore, changed: (past) => keeper?.keep(past) });
 
 let program_version = '';

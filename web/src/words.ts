@@ -34,6 +34,7 @@ export const words = {
     copied: 'The code is copied: it shows this scene in a page of yours.',
     with_page: (page: string) => `The code is copied. It shows ${page}, which “Save as page” writes: put both into one folder.`,
   },
+  recent: { forget: (name: string) => `Forget ${name}` },
   measuring: 'Measuring all frames',
   union: {
     measuring: 'Measuring…',
