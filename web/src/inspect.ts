@@ -71,9 +71,9 @@ const in_title = ['name', 'resname', 'resid', 'chain'];
 /** The rest of what is known. */
 function details_of({ sphere, attributes, centre, radius }: Picked): string[] {
   const known = Object.entries(attributes)
-    .filter(([name, value]) => !in_title.includes(name) && name !== 'id' && value !== null && value !== '')
+    .filter(([name, value]) => !in_title.includes(name) && name !== 'id' && name !== 'index' && value !== null && value !== '')
     .map(([name, value]) => `${name} ${typeof value === 'number' ? readable(value) : value}`);
-  return [`id ${sphere}`, ...known, `radius ${readable(radius)}`, `at ${centre.map(readable).join(', ')}`];
+  return [`index ${sphere}`, ...known, `radius ${readable(radius)}`, `at ${centre.map(readable).join(', ')}`];
 }
 
 export class Inspector {

@@ -563,6 +563,16 @@ function watch_size(): void {
   fit();
 }
 
+// Messages begin below the badge, which has two lines where its text is long (style.css).
+function watch_badge(): void {
+  const badge = element('badge');
+  const { style } = document.documentElement;
+  new ResizeObserver(() => {
+    if (badge.offsetHeight === 0) style.removeProperty('--below_badge');
+    else style.setProperty('--below_badge', `${badge.offsetTop + badge.offsetHeight + 6}px`);
+  }).observe(badge);
+}
+
 // A phone has a sheet of its own for links.
 const shares_links = 'share' in navigator && matchMedia('(pointer: coarse)').matches;
 
@@ -702,6 +712,7 @@ async function start(): Promise<void> {
     [...canvases, ...(packed ? [packed.buffer] : [])],
   );
   watch_size();
+  watch_badge();
 
   listen_for_pointers(picture, () => scale, move_camera);
   listen_for_zoom(() => size, move_camera);
