@@ -4,7 +4,7 @@
 
 set(BIHIVE_BARE_INCLUDE ${PROJECT_BINARY_DIR}/bare_include)
 file(MAKE_DIRECTORY ${BIHIVE_BARE_INCLUDE})
-set(folders fmt:libfmt-dev nlohmann:nlohmann-json3-dev valijson:libvalijson-dev gemmi:gemmi-dev tao:tao-pegtl-dev
+set(folders fmt:libfmt-dev nlohmann:nlohmann-json3-dev gemmi:gemmi-dev tao:tao-pegtl-dev
             hwy:libhwy-dev)
 if(NOT EMSCRIPTEN)
   list(APPEND folders GLES3:libgles-dev KHR:libgl-dev)

@@ -62,7 +62,6 @@ list(APPEND BIHIVE_LIBRARY_DEPENDENCIES $<BUILD_INTERFACE:nlohmann_json::nlohman
 bihive_require_header(EGL/egl.h libegl-dev)
 bihive_require_header(GLES3/gl3.h libgles-dev)
 list(APPEND BIHIVE_LIBRARY_DEPENDENCIES ${CMAKE_DL_LIBS})
-bihive_require_header(valijson/validator.hpp libvalijson-dev)
 bihive_require_header(gemmi/pdb.hpp gemmi-dev)
 bihive_require_header(tao/pegtl.hpp tao-pegtl-dev)
 target_compile_definitions(bihive_options INTERFACE BIHIVE_HAS_ZLIB=1 BIHIVE_HAS_PNG=1)

@@ -2,23 +2,18 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 #include <vector>
 
 #include "bihive/base/json_text.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/scene/json_schema.h"
 #include "bihive/scene/scene_file.h"
 
 namespace bihive {
 namespace {
 
 using nlohmann::json;
-using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
 constexpr std::size_t kLongestQuote = 60;  // bytes of the user's text that a message repeats
 
@@ -105,41 +100,15 @@ const json& schema_document() {
   return schema;
 }
 
-// Follows "$ref": "#/definitions/name".
-const json& resolved(const json& schema) {
-  const json* at = &schema;
-  while (at->contains("$ref"))
-    at = &schema_document().at(json::json_pointer(at->at("$ref").get<std::string>().substr(1)));
-  return *at;
+const JsonSchema& the_schema() {
+  static const JsonSchema schema(schema_document());
+  return schema;
 }
-
-// A node of the schema, prepared for checking values.
-class Judge {
- public:
-  explicit Judge(const json& schema) {
-    json standalone = resolved(schema);
-    standalone["definitions"] = schema_document().at("definitions");
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(standalone), compiled_);
-  }
-  bool accepts(const json& value) { return valijson::Validator().validate(compiled_, Adapter(value), nullptr); }
-
- private:
-  valijson::Schema compiled_;
-};
 
 std::string found(const json& value) {
   if (value.is_object()) return "an object";
   if (value.is_array()) return "an array of " + std::to_string(value.size());
   return value.is_string() ? in_quotes(value.get<std::string>()) : shortened(value.dump());
-}
-
-bool has_type(const json& value, const std::string& type) {
-  if (type == "number") return value.is_number();
-  if (type == "integer") return value.is_number_integer();
-  if (type == "string") return value.is_string();
-  if (type == "boolean") return value.is_boolean();
-  if (type == "array") return value.is_array();
-  return type == "object" && value.is_object();
 }
 
 std::string list_of_keys(const json& properties) {
@@ -150,7 +119,7 @@ std::string list_of_keys(const json& properties) {
 
 // The fault of a value that the schema refuses, at the deepest location that explains it.
 Error explain(const json& value, const json& unresolved_schema, const std::string& path) {
-  const json& schema = resolved(unresolved_schema);
+  const json& schema = the_schema().resolved(unresolved_schema);
   const std::string place = (path.empty() ? "/" : path) + ": ";
   const auto refuse = [&](const std::string& what) { return Error{place + what, "", 0, 0, ""}; };
   const Error expected =
@@ -159,13 +128,14 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
   // Of several alternatives, explain the one with the value's type.
   if (schema.contains("anyOf")) {
     for (const json& alternative : schema.at("anyOf")) {
-      const json& candidate = resolved(alternative);
+      const json& candidate = the_schema().resolved(alternative);
       const bool nested = candidate.contains("anyOf");
-      if (nested || has_type(value, candidate.value("type", std::string()))) return explain(value, alternative, path);
+      if (nested || has_json_type(value, candidate.value("type", std::string())))
+        return explain(value, alternative, path);
     }
     return expected;
   }
-  if (schema.contains("type") && !has_type(value, schema.at("type").get<std::string>())) return expected;
+  if (schema.contains("type") && !has_json_type(value, schema.at("type").get<std::string>())) return expected;
 
   // In an object, search for unknown and missing keys, then check the values.
   if (value.is_object() && schema.contains("properties")) {
@@ -181,7 +151,8 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
         if (!value.contains(key.get<std::string>())) return refuse("the key " + key.dump() + " is missing");
     for (const auto& member : value.items()) {
       const json& property = properties.at(member.key());
-      if (!Judge(property).accepts(member.value())) return explain(member.value(), property, path + "/" + member.key());
+      if (!the_schema().accepts(member.value(), property))
+        return explain(member.value(), property, path + "/" + member.key());
     }
   }
 
@@ -191,11 +162,9 @@ Error explain(const json& value, const json& unresolved_schema, const std::strin
     const bool tuple = items.is_array();
     const std::size_t most = tuple ? items.size() : schema.value("maxItems", value.size());
     if (value.size() < schema.value("minItems", std::size_t{0}) || value.size() > most) return expected;
-    std::optional<Judge> judge;
     for (std::size_t i = 0; i < value.size(); ++i) {
       const json& item = tuple ? items[i] : items;
-      if (tuple || !judge) judge.emplace(item);
-      if (!judge->accepts(value[i])) return explain(value[i], item, path + "/" + std::to_string(i));
+      if (!the_schema().accepts(value[i], item)) return explain(value[i], item, path + "/" + std::to_string(i));
     }
   }
   return expected;
@@ -211,8 +180,7 @@ Result<json> parse_json(std::string_view text, const std::string& name) {
 }
 
 Status check_against_schema(const json& document, const std::string& name) {
-  static Judge judge(schema_document());
-  if (judge.accepts(document)) return Done{};
+  if (the_schema().accepts(document, schema_document())) return Done{};
   Error error = explain(document, schema_document(), "");
   error.file = name;
   return error;
@@ -220,7 +188,7 @@ Status check_against_schema(const json& document, const std::string& name) {
 
 Status check_against_definition(const json& document, const std::string& definition, const std::string& name) {
   const json& schema = schema_document().at("definitions").at(definition);
-  if (Judge(schema).accepts(document)) return Done{};
+  if (the_schema().accepts(document, schema)) return Done{};
   Error error = explain(document, schema, "");
   error.file = name;
   return error;
