@@ -6,6 +6,8 @@
 # its server sends certain headers.
 option(BIHIVE_WASM_THREADS "Build WebAssembly for several threads" ON)
 add_compile_options(-fexceptions -msimd128)
+# Nobody asks what type a std::function holds: the names of those types are left out.
+add_compile_definitions(_LIBCPP_NO_RTTI)
 add_link_options(-fexceptions)
 if(BIHIVE_WASM_THREADS)
   add_compile_options(-pthread)
