@@ -1,5 +1,5 @@
-// Figure 4.4 of the thesis on this device, one step for each call. The page's module has these classes, and so has the
-// smaller module of the page for phones (web/phone.html). Answers are JSON texts (answers.h).
+// Figure 4.4 of the thesis on this device, one step for each call. A module of the page has these classes alone, and so
+// has the one of the page for phones (web/phone.html). Answers are JSON texts (answers.h).
 #pragma once
 
 #include <emscripten/val.h>

@@ -1,6 +1,6 @@
 // The canvas of the graphics processor: its WebGL2 context, which the C++ module uses, and the loss of that context.
 import type { GpuState } from './protocol';
-import type { Module, ThesisModule } from './module';
+import type { Module, DrawingModule } from './module';
 
 export const attributes: WebGLContextAttributes = {
   alpha: false,
@@ -64,6 +64,11 @@ export class GlCanvas {
     return { here: this.here, software: this.software, name: this.name, why_not: this.why_not, description };
   }
 
+  /** Lets another module draw on this canvas, too. */
+  lend(module: DrawingModule): void {
+    if (this.here) give_context(module, this.context!);
+  }
+
   // Also after a loss: it asks for the extensions again and forgets the names of lost objects.
   private register(): void {
     give_context(this.module, this.context!);
@@ -71,7 +76,7 @@ export class GlCanvas {
 }
 
 /** Lets the C++ module draw with this context. */
-export function give_context(module: ThesisModule, context: WebGL2RenderingContext): void {
+export function give_context(module: DrawingModule, context: WebGL2RenderingContext): void {
   const handle = module.GL.registerContext(context, { majorVersion: 2, minorVersion: 0, enableExtensionsByDefault: true });
   module.GL.makeContextCurrent(handle);
 }

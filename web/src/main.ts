@@ -735,7 +735,7 @@ async function start(): Promise<void> {
   element('copy_embed').addEventListener('click', () => void copy_embed());
   element('save_page').addEventListener('click', () => void save_page());
   // A link to a file of one's own is nobody else's, and there is no server.
-  if (is_one_file) for (const id of ['copy_link', 'link_help', 'url_form']) element(id).hidden = true;
+  if (is_one_file) for (const id of ['copy_link', 'link_help', 'url_form', 'thesis_group']) element(id).hidden = true;
   if (shares_links) element('copy_link').textContent = 'Share link';
 
   const open_state = async (start: string) => {

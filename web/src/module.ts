@@ -78,15 +78,19 @@ export interface FileSystem {
 }
 
 /** The functions of both modules. */
-export interface ThesisModule {
-  ThesisRun: { new (gpu: boolean): ThesisRun };
-  ShownFramesRun: { new (): ShownFramesRun };
+export interface DrawingModule {
   GL: GlContexts;
   version(): string;
   threads(): number;
 }
 
-export interface Module extends ThesisModule {
+/** The thesis's measurements. */
+export interface ThesisModule extends DrawingModule {
+  ThesisRun: { new (gpu: boolean): ThesisRun };
+  ShownFramesRun: { new (): ShownFramesRun };
+}
+
+export interface Module extends DrawingModule {
   Page: { new (): Page; folder(): string };
   FS: FileSystem;
 }
@@ -134,6 +138,9 @@ export const load_module = (base: string, threads: boolean, wasm: WebAssembly.Mo
 
 /** The module for figures, which only they need. */
 export const load_figure_module = (base: string, threads: boolean): Promise<FigureModule> => load('figure', base, threads);
+
+/** The module for the thesis's measurements, which few visitors start. */
+export const load_thesis_module = (base: string, threads: boolean): Promise<ThesisModule> => load('thesis', base, threads);
 
 interface Failure {
   message: string;

@@ -1,5 +1,5 @@
 // The worker: the C++ module, the frame loop, and the answers to the page.
-import { BadInput, load_module, value_of, type Module, type Page, type ThesisRun } from './module';
+import { BadInput, load_module, load_thesis_module, value_of, type Module, type Page, type ShownFramesRun, type ThesisModule, type ThesisRun } from './module';
 import { FilmRun } from './film_run';
 import { GlCanvas } from './gl_canvas';
 import { unpacked_lzma } from './lzma';
@@ -13,6 +13,7 @@ const frame_budget_ms = 25;
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
 
 let module: Module;
+let thesis_module: () => Promise<ThesisModule>; // loads it the first time
 let page: Page;
 let user_files: UserFiles;
 let gl: GlCanvas;
@@ -427,19 +428,24 @@ interface ThesisSoFar {
 
 const busy_saving = 'A picture is being drawn to be saved: wait for it, or cancel it';
 
-function run_thesis(quick: boolean, device: string, saved: string): void {
+async function run_thesis(quick: boolean, device: string, saved: string): Promise<void> {
   if (thesis) return;
   try {
     if (saving) throw new BadInput(busy_saving);
     apply_changes();
-    thesis_run = new module.ThesisRun(settings().engine === 'gpu');
-    const { resumed } = value_of<{ resumed: number }>(thesis_run.begin(quick, saved));
-    thesis = { device, cancelled: false, saved: resumed };
+    const on_gpu = settings().engine === 'gpu';
+    thesis = { device, cancelled: false, saved: 0 };
+    const made = await thesis_module();
+    if (on_gpu) gl.lend(made);
+    thesis_run = new made.ThesisRun(on_gpu);
+    thesis.saved = value_of<{ resumed: number }>(thesis_run.begin(quick, saved)).resumed;
     setTimeout(step_thesis);
   } catch (error) {
     thesis_run?.delete();
     thesis_run = null;
+    thesis = null;
     send({ type: 'thesis_failed', message: (error as Error).message });
+    ask_for_frame();
   }
 }
 
@@ -478,11 +484,13 @@ const next_refresh = () =>
 async function show_frames(seconds: number, device: string): Promise<void> {
   if (thesis) return;
   const run = { device, cancelled: false, saved: 0 };
-  const frames = new module.ShownFramesRun();
+  let frames: ShownFramesRun | null = null;
   try {
     if (saving) throw new BadInput(busy_saving);
-    value_of(frames.begin(seconds));
     thesis = run;
+    const made = await thesis_module();
+    frames = new made.ShownFramesRun();
+    value_of(frames.begin(seconds));
     let done = -1;
     for (let finished = false; !finished && !run.cancelled; ) {
       const { width, height } = value_of<{ width: number; height: number }>(frames.draw());
@@ -497,7 +505,7 @@ async function show_frames(seconds: number, device: string): Promise<void> {
   } catch (error) {
     send({ type: 'thesis_failed', message: (error as Error).message });
   }
-  frames.delete();
+  frames?.delete();
   thesis = null;
   // The scene's own picture again.
   if (has_scene && settings().engine === 'cpu') show_cpu_image();
@@ -507,6 +515,13 @@ async function show_frames(seconds: number, device: string): Promise<void> {
 async function start(request: Request & { type: 'start' }): Promise<void> {
   const wasm = request.packed ? await WebAssembly.compile(unpacked_lzma(request.packed)) : request.wasm;
   module = await load_module(request.base, request.threads, wasm);
+  let loaded: Promise<ThesisModule> | null = null;
+  const load_it = () =>
+    load_thesis_module(request.base, request.threads).catch((error: unknown) => {
+      loaded = null; // another time the server may answer
+      throw error;
+    });
+  thesis_module = () => (loaded ??= load_it());
   page = new module.Page();
   if (request.embedded) page.let_page_through();
   user_files = new UserFiles(module);
