@@ -282,7 +282,8 @@ for (const engine of ['cpu', 'gpu'])
     assert.equal(await page.evaluate(() => localStorage.getItem('bihive-thesis')), null);
     // The diagram of costs, with this device as a point; and three charts of rates.
     assert.equal(await page.locator('#thesis_charts svg').count(), 4);
-    assert.equal(await page.locator('#thesis_charts .bihive-costs .point').count(), 1);
+    const follows = !/no winner follows/.test(await text()); // on a busy machine the frames may not tell
+    assert.equal(await page.locator('#thesis_charts .bihive-costs .point').count(), follows ? 1 : 0);
     assert.match(await text(), /the cost of an inner node over that of a sphere test is .+, and that of a leaf over an inner node is .+(\. At these costs BIH 8 wins \d of 9|, so that no winner follows)/);
     // The pictures are smaller than the text's.
     assert.doesNotMatch(await page.textContent('#thesis_charts'), /iPhone 5s, stated/);
