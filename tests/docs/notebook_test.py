@@ -27,7 +27,7 @@ class Notebooks(unittest.TestCase):
         outputs = [output for cell in cells for output in cell.get("outputs", [])]
         self.assertEqual([one for one in outputs if one["output_type"] == "error"], [])
         pictures = [one for one in outputs if "image/png" in one.get("data", {})]
-        self.assertEqual(len(pictures), 3, "pictures show themselves")
+        self.assertEqual(len(pictures), 4, "pictures show themselves, and so does a set of spheres")
         words = json.dumps(outputs)
         self.assertIn("1631 spheres from demo (PDB)", words)
         self.assertIn("35 atoms of the drug, 100 around it", words)

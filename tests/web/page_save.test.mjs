@@ -114,7 +114,7 @@ test('code for a page of one’s own shows the page that is saved beside it', as
   await page.click('#copy_embed');
   await page.waitForFunction(() => document.getElementById('messages').textContent.includes('demo.html'));
   const code = await page.evaluate(() => navigator.clipboard.readText());
-  assert.match(code, /^<iframe src="demo\.html\?embed=" title="demo · bihive"/);
+  assert.match(code, /^<iframe src="demo\.html\?embed=" title="HIV-1 protease with amprenavir · 1HPV · bihive"/);
   await close_card(page);
   no_complaints(complaints);
   await context.close();

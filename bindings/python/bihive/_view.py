@@ -96,7 +96,7 @@ class Page:
 
         return (
             f'<iframe title="{escape(self.name)}" sandbox="allow-scripts allow-downloads" allow="fullscreen" '
-            f'style="width: 100%; height: {self.height}px; border: 0" srcdoc="{escape(self.html)}"></iframe>'
+            f'style="width: 100vw; max-width: 100%; height: {self.height}px; border: 0" srcdoc="{escape(self.html)}"></iframe>'
         )
 
     def __repr__(self) -> str:

@@ -7,7 +7,7 @@ function render({ model, el }) {
   frame.title = model.get('name');
   frame.setAttribute('sandbox', 'allow-scripts allow-downloads');
   frame.allow = 'fullscreen';
-  frame.style.cssText = `width: 100%; height: ${model.get('height')}px; border: 0`;
+  frame.style.cssText = `width: 100vw; max-width: 100%; height: ${model.get('height')}px; border: 0`;
   // Bytes arrive as a DataView.
   frame.srcdoc = new TextDecoder().decode(model.get('page'));
 
