@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import {
-  agreement, and_settle, compare, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
+  agreement, and_settle, close_card, compare, folder, launch, link_state, native_picture, no_complaints, open_page, saved_picture,
   set_value, settled, shown_error, shown_picture,
 } from './page_kit.mjs';
 import { serve } from './page_server.mjs';
@@ -319,6 +319,7 @@ test('frames shown a second are counted', async () => {
     viewport: { width: 800, height: 400 },
   });
   await draw_a_little_by_gpu(page); // the frames are the CPU's all the same
+  await close_card(page);
   const before = await page.locator('#gpu_canvas').screenshot();
   await page.click('#thesis_open');
   await page.click('#thesis_shown');
@@ -341,6 +342,7 @@ test('frames shown a second are counted', async () => {
   await page.click('#thesis_close');
   await settled(page);
   await page.waitForSelector('#gpu_canvas:not([hidden])');
+  await close_card(page);
   assert.ok((await compare(page, before, await page.locator('#gpu_canvas').screenshot(), 2)).share < 0.01);
   no_complaints(complaints);
   await context.close();
