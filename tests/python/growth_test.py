@@ -65,6 +65,8 @@ def cases(folder):
     bh.render(f"{folder}/read.xyz", **options).save(f"{folder}/figure.png")
     found = tree.contains(points)
     moving = bh.Tree(s, threads=2)
+    sticks = bh.Sticks(xyz[:-1], xyz[1:], 0.01)
+    bodies = bh.BodyTree(s, sticks, threads=2)
     box = bh.Tree(bh.Spheres(xyz % 4, radius=0.05, cell=[4, 4, 4], columns={"charge": xyz[:, 0]}), threads=2)
     own = np.arange(600)
     choices = [{}, {"mask": "charge > 0"}, {"exclude": own}, {"mask": xyz[:, 1] > 0, "exclude": 7}]
@@ -87,6 +89,11 @@ def cases(folder):
         "Tree.count_within": lambda: [one.count_within(points, 0.1, **some) for one in (tree, box) for some in choices],
         "Tree.pairs": lambda: tree.pairs(0.1),
         "Tree.update": lambda: moving.update(xyz),
+        "Sticks": lambda: bh.Sticks(xyz[:-1], xyz[1:], 0.01),
+        "BodyTree": lambda: bh.BodyTree(s, sticks, threads=2),
+        "BodyTree.closest": lambda: bodies.closest(rays, rays),
+        "BodyTree.occluded": lambda: bodies.occluded(rays, rays),
+        "BodyHits": fields(bodies.closest(rays, rays)),
         "Spheres.bonds": lambda: bh.Spheres(xyz, radius=0.05, bonds=np.arange(2000).reshape(-1, 2)).bonds,
         "Spheres.moved": lambda: s.moved(xyz),
         "Spheres.with_columns": lambda: s.with_columns({"more": xyz[:, 1]}),

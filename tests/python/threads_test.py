@@ -106,7 +106,7 @@ class Threads(ProgramTest):
                      "contains": (points,), "overlaps": (points, 0.5), "count_within": (points, 0.5), "pairs": (0.1,)}
         ray = (*RAYS, None, None, None, None, None)
         arguments |= {"core.closest": (*ray, True, False), "core.occluded": (*ray, False, True),
-                      "core.all_hits": (*ray, False),
+                      "core.all_hits": (*ray, False), "core.bodies": (*RAYS, np.full(len(RAYS[0]), np.inf), np.full(len(RAYS[0]), -1)),
                       "core.surfaces": (*RAYS, None, np.full(len(RAYS[0]), np.inf), np.full(len(RAYS[0]), -1), False, True),
                       "core.nearest": (points, 2, 9.0, None, None, True), "core.within": (points, np.ones(20), None, None, False),
                       "core.count_within": (points, np.ones(20), None, None, True), "core.pairs": (0.1, None, False)}
@@ -116,6 +116,10 @@ class Threads(ProgramTest):
         calls["updated"] = lambda: moving.closest(*RAYS)
         del calls["pickled"]
         self.together(calls)
+
+    def test_bodies(self):
+        tree = bh.BodyTree(spheres(), bh.Sticks([[0, 0, 0]], [[1, 1, 1]], 0.1), threads=2)
+        self.together({"closest": lambda: tree.closest(*RAYS), "occluded": lambda: tree.occluded(*RAYS)})
 
     def test_picture(self):
         picture = bh.render(spheres(), **SMALL)

@@ -40,8 +40,10 @@ struct Heard {
   ProgressCallback callback() {
     return [this](double done) { shares.push_back(done); };
   }
+  // With reports before the end: how many depends on the machine, because some 20 ms lie between them. A fast one once
+  // heard three of a reading of a million atoms.
   void expect_one_call() const {
-    ASSERT_FALSE(shares.empty());
+    ASSERT_GT(shares.size(), 1u);
     EXPECT_GE(shares.front(), 0);
     for (std::size_t i = 1; i < shares.size(); ++i) EXPECT_LE(shares[i - 1], shares[i]);
     EXPECT_EQ(shares.back(), 1);
@@ -81,7 +83,6 @@ TEST(Watch, a_reading_reports_and_ends_with_1) {
   const Watch watch(heard.callback());
   ASSERT_TRUE(read_spheres_from_memory(text, "a.xyz", {}).ok());
   heard.expect_one_call();
-  EXPECT_GT(heard.shares.size(), 3u);
 }
 
 TEST(Watch, a_build_reports_and_ends_with_1) {
@@ -91,7 +92,6 @@ TEST(Watch, a_build_reports_and_ends_with_1) {
     const Watch watch(heard.callback());
     ASSERT_TRUE(WideBuilder().build(set, {}, threads).ok());
     heard.expect_one_call();
-    EXPECT_GT(heard.shares.size(), 3u);
   }
 }
 
