@@ -54,6 +54,7 @@ std::shared_ptr<RayTree> build_body_tree(const SharedSpheres& spheres, const Vec
 // Of each hit of `closest`: kind (BodyKind), the number of its sphere or stick, and the position along the stick.
 py::tuple bodies_of_hits(const RayTree& tree, const Vectors& origin, const Vectors& direction,
                          const py::array_t<double>& t, const py::array_t<std::int64_t>& id) {
+  if (!tree.scene) throw py::type_error("this tree has no sticks: BodyTree has");
   const py::ssize_t count = t.shape(0);
   py::array_t<std::uint8_t> kind(count);
   py::array_t<std::int64_t> number(count);
