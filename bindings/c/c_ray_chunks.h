@@ -76,7 +76,7 @@ class Columns {
 };
 
 /// Calls answer(rays, first, chunk) for all chunks of the rays, on threads, as a section of the thread's WatchedWork.
-/// `origin`: of the spheres.
+/// `origin`: SphereSet::origin() of the spheres, in world units.
 template <class Answer>
 int for_chunks(Vec3d origin, const bihive_rays& rays, int threads, const Answer& answer) {
   const Parts parts = Parts::of(rays.count, threads);

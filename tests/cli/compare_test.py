@@ -311,7 +311,7 @@ class Compare(ProgramTest):
         ):
             self.assertIn(part, self.fail_input(*words, "--universe", universe))
         for bbox, part in (
-            ([[0, 0, 0]], "[[x, y, z], [x, y, z]]"), ([[0, 0, "a"], [1, 1, 1]], "something else than numbers"),
+            ([[0, 0, 0]], "[[x, y, z], [x, y, z]]"), ([[0, 0, "a"], [1, 1, 1]], "values other than numbers"),
             ([[0, 2, 0], [1, 1, 1]], 'universe "0", volume 0: its bbox ends before it begins along y'),
         ):
             self.write("bad.json", json.dumps({"universes": [{"volumes": [{"bbox": bbox}]}]}))

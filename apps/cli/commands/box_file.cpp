@@ -80,7 +80,7 @@ std::optional<Box> box_of_volume(const nlohmann::json& volume, const std::string
     if (!point.is_array() || point.size() != 3) bad("its bbox is not [[x, y, z], [x, y, z]]");
     for (int axis = 0; axis < 3; ++axis) {
       const nlohmann::json& number = point[static_cast<std::size_t>(axis)];
-      if (!number.is_number() && !number.is_null()) bad("its bbox has something else than numbers");
+      if (!number.is_number() && !number.is_null()) bad("its bbox has values other than numbers");
       const double value = number.is_null() ? kFarthest * 10 : number.get<double>();
       finite &= std::abs(value) <= kFarthest;
       (*ends[end])[axis] = value;

@@ -263,7 +263,7 @@ class FilmSteps {
   std::mutex mutex_;
   std::exception_ptr failure_;
   bool told_of_spheres_outside_ = false;  // the thread that builds
-  std::optional<TreeParameters> tuned_;   // the same: of the first frame
+  std::optional<TreeParameters> tuned_;   // found for the first frame, by the same thread
   FilmTimes times_;                       // each thread adds to its own
 };
 

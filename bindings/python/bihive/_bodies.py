@@ -1,4 +1,4 @@
-"""Sticks beside spheres: what rays of a program hit."""
+"""Ray queries on spheres and sticks."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Picture"]
 
-# What a picture was asked of: source, camera, style, select, looks, options of render().
+# The arguments of render() that made a picture: source, camera, style, select, looks, options.
 Asked = tuple[Any, Any, Any, Any, Any, dict[str, Any]]
 
 

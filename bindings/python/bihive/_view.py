@@ -29,7 +29,7 @@ __all__ = ["Page", "View", "page", "save_page", "view"]
 
 _LONGEST_NAME = 60  # characters: a folder takes names of 255 bytes
 FRAME_PX = 520  # height of the page in a notebook
-# What pages take of the options of a picture. They have their own number of samples.
+# The options of a picture that a page accepts. A page chooses its own number of samples.
 _OF_PAGES = set(_bihive.options_of_pages()) - {"samples"}
 
 

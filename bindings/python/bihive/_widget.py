@@ -61,14 +61,14 @@ def widget(
 ) -> Any:
     """The page with these spheres in a cell of a notebook, as a widget where the package anywidget is installed; else page().
 
-    height: of the frame, in pixels. All other arguments: as of save_page().
+    height: height of the frame in pixels. All other arguments are those of save_page().
 
     The widget's traits are shared with the page, so observe() tells of changes:
 
-    camera: what the page shows is seen from there, a dictionary as Picture.camera; empty until the page is shown. Setting it, or
-        some of its members, moves the camera there.
-    pins: positions of the spheres that are pinned in the page, a list. picked: what was pinned last, a dictionary ("sphere",
-        "centre", "radius", "attributes"), or None.
+    camera: the camera of the page, a dictionary as Picture.camera; empty until the page is shown. Setting it, or some of its
+        members, moves the camera.
+    pins: a list of the positions of the pinned spheres. picked: the sphere pinned last, a dictionary with "sphere", "centre",
+        "radius" and "attributes", or None.
     """
     pixels = int(whole_numbers("height", height, 1, 1, _TALLEST_PX)[0])
     made = page(source, camera=camera, style=style, select=select, looks=looks, **options)

@@ -27,6 +27,7 @@
 #include "bihive/io/elements.h"
 #include "bihive/io/packed.h"
 #include "bihive/io/reading_settings.h"
+#include "bihive/io/text/title.h"
 #include "bihive/io/write_spheres.h"
 #include "bihive/job/input.h"
 #include "bihive/job/scene_request.h"
@@ -120,8 +121,8 @@ SharedSpheres spheres_from_arrays(
   made->file.time_ps = time_ps;
   made->file.step = step;
   made->file.rules = rules;
-  made->file.title = one_line(title, 300);
-  made->file.entry_id = one_line(entry_id, 40);
+  made->file.title = title_from(title);
+  made->file.entry_id = entry_id_from(entry_id);
   made->name = name;
   return made;
 }

@@ -24,9 +24,9 @@ inline int opacity_class(double share) {
 }
 
 /// Rays cross layers in every generation, so their number would be a power of the number of layers. Hence, in a scene
-/// where another rule applies to some sphere, a reflected or refracted ray that carries less of a primary
-/// ray's light than this is not traced: less than 1/8 of a step of an 8-bit picture in linear light. Nor is a sphere
-/// that a ray passes straight through shaded where less than this arrives at it.
+/// where another rule applies to some sphere, a reflected or refracted ray that carries less of a primary ray's light
+/// than this is not traced: less than 1/8 of a step of an 8-bit picture in linear light. Nor is a sphere that a ray
+/// passes straight through shaded where less than this arrives at it.
 constexpr double kFaintestRay = 1.0 / 2048;
 
 }  // namespace bihive

@@ -92,7 +92,7 @@ class GroReader {
     spheres_.time_ps = number_behind("t=");
     if (const auto step = number_behind("step="); step && *step > -9e15 && *step < 9e15)
       spheres_.step = static_cast<std::int64_t>(*step);
-    // What is before them.
+    // The title is the text before both.
     title = trim(title.substr(0, end));
     while (!title.empty() && (title.back() == ',' || title.back() == ';')) title.remove_suffix(1);
     spheres_.title = title_from(title);
