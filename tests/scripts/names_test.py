@@ -1,8 +1,9 @@
 """Every script is named as every other file is: words in lower case joined by underscores, and no ending, because its
-first line says what runs it."""
+first line says what runs it. Files that the documents for newcomers name are there."""
 
 import os
 import pathlib
+import re
 import unittest
 
 SOURCE = pathlib.Path(os.environ.get("BIHIVE_SOURCE", pathlib.Path(__file__).parent.parent.parent))
@@ -21,6 +22,22 @@ class Names(unittest.TestCase):
         for script in self.scripts():
             self.assertTrue(script.read_bytes().startswith(b"#!/"), f"{script.name} does not begin with #!")
             self.assertTrue(os.access(script, os.X_OK), f"{script.name} cannot be executed")
+
+
+class NamedFiles(unittest.TestCase):
+    """`render/tracer.h` in HACKING.md and docs/architecture.md: from the top, or from one of these folders."""
+
+    BASES = ("", "src/bihive", "src/bihive/io", "src/bihive/render", "bindings/python", "tests")
+
+    def test_each_is_there(self):
+        for document in ("HACKING.md", "docs/architecture.md"):
+            text = (SOURCE / document).read_text(encoding="utf-8")
+            names = set(re.findall(r"`([a-z_]+(?:/[A-Za-z_.-]+)+\.(?:cpp|h|py|ts|md|txt))`", text))
+            self.assertGreater(len(names), 30)
+            for name in sorted(names):
+                if not any(word.isupper() for word in re.split(r"[/_.]", name)):  # FORMAT.cpp is a name to come
+                    with self.subTest(document=document):
+                        self.assertTrue(any((SOURCE / base / name).is_file() for base in self.BASES), f"{document} names {name}")
 
 
 if __name__ == "__main__":
