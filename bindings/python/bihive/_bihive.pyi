@@ -5,6 +5,8 @@ from typing import Any, Callable, Optional, Sequence, Union
 import numpy as np
 
 _Array = np.ndarray[Any, Any]
+# Origins, directions, t_min, t_max, leaves, inside.
+_Rays = tuple[_Array, _Array, Optional[_Array], Optional[_Array], Optional[_Array], Optional[_Array]]
 
 __version__: str
 
@@ -102,41 +104,9 @@ class Tree:
     def periodic(self) -> bool: ...
     def __len__(self) -> int: ...
     def bodies(self, origin: _Array, direction: _Array, t: _Array, id: _Array) -> tuple[_Array, _Array, _Array]: ...
-    def closest(
-        self,
-        origin: _Array,
-        direction: _Array,
-        t_min: Optional[_Array],
-        t_max: Optional[_Array],
-        leaves: Optional[_Array],
-        inside: Optional[_Array],
-        exclude: Optional[_Array],
-        see_images: bool,
-        in_blocks: bool,
-    ) -> tuple[_Array, _Array]: ...
-    def occluded(
-        self,
-        origin: _Array,
-        direction: _Array,
-        t_min: Optional[_Array],
-        t_max: Optional[_Array],
-        leaves: Optional[_Array],
-        inside: Optional[_Array],
-        exclude: Optional[_Array],
-        see_images: bool,
-        in_blocks: bool,
-    ) -> _Array: ...
-    def all_hits(
-        self,
-        origin: _Array,
-        direction: _Array,
-        t_min: Optional[_Array],
-        t_max: Optional[_Array],
-        leaves: Optional[_Array],
-        inside: Optional[_Array],
-        exclude: Optional[_Array],
-        see_images: bool,
-    ) -> tuple[_Array, _Array, _Array, _Array]: ...
+    def closest(self, rays: _Rays, exclude: Optional[_Array], see_images: bool, in_blocks: bool) -> tuple[_Array, _Array]: ...
+    def occluded(self, rays: _Rays, exclude: Optional[_Array], see_images: bool, in_blocks: bool) -> _Array: ...
+    def all_hits(self, rays: _Rays, exclude: Optional[_Array], see_images: bool) -> tuple[_Array, _Array, _Array, _Array]: ...
     def surfaces(
         self,
         origin: _Array,

@@ -120,7 +120,7 @@ class BodyTree:
     ) -> BodyHits:
         """The nearest hit of each ray. Arguments as those of Tree.closest()."""
         rays, shape = segments_of(origins, directions, t_min, t_max)
-        t, ids = self._core.closest(*rays, None, None, None, False, in_blocks_of(order))
+        t, ids = self._core.closest((*rays, None, None), None, False, in_blocks_of(order))
         kind, number, along = self._core.bodies(rays[0], rays[1], t, ids)
         along[kind != 2] = np.nan
         return BodyHits(t.reshape(shape)[()], _KINDS[kind].reshape(shape)[()], number.reshape(shape)[()], along.reshape(shape)[()])
@@ -136,5 +136,5 @@ class BodyTree:
     ) -> Booleans:
         """Whether each ray hits anything: bool, with the shape of the rays. Arguments as those of closest()."""
         rays, shape = segments_of(origins, directions, t_min, t_max)
-        made: Booleans = self._core.occluded(*rays, None, None, None, False, in_blocks_of(order)).reshape(shape)[()]
+        made: Booleans = self._core.occluded((*rays, None, None), None, False, in_blocks_of(order)).reshape(shape)[()]
         return made

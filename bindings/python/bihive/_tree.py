@@ -192,7 +192,7 @@ class Tree:
         own = self._own_of_rays(exclude, shape)
         core = self._core
         try:
-            t, ids = core.closest(*rays, own if images else None, images, in_blocks)
+            t, ids = core.closest(rays, own if images else None, images, in_blocks)
             if own is not None and not images:
                 _pass_over(core, rays, own, t, ids)
         except InputError as error:
@@ -227,7 +227,7 @@ class Tree:
         rays, shape = self._rays(origins, directions, t_min, t_max, leaves, inside)
         own = self._own_of_rays(exclude, shape)
         try:
-            hidden = self._core.occluded(*rays, own, images, in_blocks)
+            hidden = self._core.occluded(rays, own, images, in_blocks)
         except InputError as error:
             raise _of_t_max(error) from None
         made: Booleans = hidden.reshape(shape)[()]
@@ -261,7 +261,7 @@ class Tree:
         most = None if k is None else _count_of(k)
         core = self._core
         try:
-            ray, t, ids, begin = core.all_hits(*rays, own if images else None, images)
+            ray, t, ids, begin = core.all_hits(rays, own if images else None, images)
         except InputError as error:
             raise _of_t_max(error) from None
         if own is not None and not images:
@@ -515,7 +515,7 @@ def _pass_over(core: _bihive.Tree, rays: Rays, own: Array, t: Array, ids: Array)
     if again.size == 0:
         return
     t_min, t_max, leaves, inside = (None if one is None else np.ascontiguousarray(one[again]) for one in rays[2:])
-    ray, t_of_all, id_of_all, _ = core.all_hits(rays[0][again], rays[1][again], t_min, t_max, leaves, inside, None, False)
+    ray, t_of_all, id_of_all, _ = core.all_hits((rays[0][again], rays[1][again], t_min, t_max, leaves, inside), None, False)
     others = id_of_all != own[again][ray]
     hit, first = np.unique(ray[others], return_index=True)
     t[again], ids[again] = np.inf, -1

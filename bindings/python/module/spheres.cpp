@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -144,24 +145,30 @@ std::shared_ptr<Spheres> facts_of(const Spheres& whole) {
   return made;
 }
 
-// The spheres of these ids, which are in range, with all that is known of the whole. They are rounded again, as those
-// of arrays are: relative to an origin of their own.
-SharedSpheres part_of(const Spheres& whole, const Array<std::int64_t>& positions) {
-  const std::vector<std::int64_t> ids = vector_from<std::int64_t>(positions);
-  const py::gil_scoped_release unlocked;
-  const SphereSet& set = whole.file.spheres;
+// The spheres of these ids, which are in range, with their attributes. They are rounded again, as those of arrays are:
+// relative to an origin of their own.
+SphereSet rounded_again(const SphereSet& set, std::vector<std::int64_t> ids) {
   std::array<std::vector<double>, 4> columns;
   for (std::vector<double>& column : columns) column.reserve(ids.size());
-  for (const std::int64_t id : ids) {
+  for (std::int64_t& id : ids) {
     const Vec3d centre = set.centre(id);
     for (std::size_t axis = 0; axis < 3; ++axis) columns[axis].push_back(centre[static_cast<int>(axis)]);
     columns[3].push_back(set.radius(id));
+    id = set.stored_id(id);
   }
   const auto view = [&](std::size_t column) { return NumbersView::of(columns[column]); };
+  SphereSet made = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
+  made.attributes() = set.attributes().part(ids);
+  return made;
+}
+
+// The same with all that is known of the whole.
+SharedSpheres part_of(const Spheres& whole, const Array<std::int64_t>& positions) {
+  std::vector<std::int64_t> ids = vector_from<std::int64_t>(positions);
+  const py::gil_scoped_release unlocked;
   const std::shared_ptr<Spheres> made = facts_of(whole);
-  made->file.spheres = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
-  made->file.spheres.attributes() = set.attributes().part(ids);
-  made->file.spheres.cell() = set.cell();
+  made->file.spheres = rounded_again(whole.file.spheres, std::move(ids));
+  made->file.spheres.cell() = whole.file.spheres.cell();
   return made;
 }
 
@@ -278,19 +285,9 @@ SphereFile with_copies(SphereFile file) {
   constexpr double kBytesPerCopy = 4 * 8 + 16 + 2 * 8;  // numbers in binary64, the set, ids
   const std::int64_t count = set.total_size();
   value_of(check_memory(kBytesPerCopy * static_cast<double>(count), grouped(count) + " spheres with their copies"));
-  std::array<std::vector<double>, 4> columns;
-  std::vector<std::int64_t> stored;
-  for (std::vector<double>& column : columns) column.reserve(static_cast<std::size_t>(count));
-  stored.reserve(static_cast<std::size_t>(count));
-  for (std::int64_t id = 0; id < count; ++id) {
-    const Vec3d centre = set.centre(id);
-    for (std::size_t axis = 0; axis < 3; ++axis) columns[axis].push_back(centre[static_cast<int>(axis)]);
-    columns[3].push_back(set.radius(id));
-    stored.push_back(set.stored_id(id));
-  }
-  const auto view = [&](std::size_t column) { return NumbersView::of(columns[column]); };
-  SphereSet all = value_of(SphereSet::from_world(view(0), view(1), view(2), view(3), SphereSet::Origin::fitting));
-  all.attributes() = set.attributes().part(stored);
+  std::vector<std::int64_t> ids(static_cast<std::size_t>(count));
+  std::iota(ids.begin(), ids.end(), 0);
+  SphereSet all = rounded_again(set, std::move(ids));
   all.attributes().bonds.list = bonds_of_copies(set);
   if (set.cell()) {
     Cell cell = *set.cell();

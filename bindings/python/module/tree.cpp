@@ -12,6 +12,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -189,10 +190,14 @@ const WideTree* tree_of_images(const RayTree& tree, bool periodic) {
   return wide;
 }
 
-// bihive/_tree.py has checked shapes and types. `origin` and `direction`: (n, 3).
-RayArrays rays_from(const py::array& origin, const py::array& direction, const std::optional<py::array>& t_min,
-                    const std::optional<py::array>& t_max, const std::optional<py::array_t<std::int64_t>>& leaves,
-                    const std::optional<py::array_t<std::uint8_t>>& inside) {
+// bihive/_tree.py has checked shapes and types: origin and direction (n, 3), t_min, t_max, leaves, inside.
+using GivenRays = std::tuple<py::array, py::array, std::optional<py::array>, std::optional<py::array>,
+                             std::optional<py::array_t<std::int64_t>>, std::optional<py::array_t<std::uint8_t>>>;
+// For each ray the sphere that does not count. Only rays that see images leave it to the library.
+using GivenSpheres = std::optional<py::array_t<std::int64_t>>;
+
+RayArrays rays_from(const GivenRays& given) {
+  const auto& [origin, direction, t_min, t_max, leaves, inside] = given;
   RayArrays rays;
   rays.count = origin.shape(0);
   for (py::ssize_t axis = 0; axis < 3; ++axis) {
@@ -206,83 +211,71 @@ RayArrays rays_from(const py::array& origin, const py::array& direction, const s
   return rays;
 }
 
-// `exclude`: for each ray the sphere that does not count. Only rays that see images leave it to the library.
-const std::int64_t* excluded_from(const std::optional<py::array_t<std::int64_t>>& exclude, std::int64_t first) {
-  return exclude ? exclude->data() + first : nullptr;
+// Calls plain(span, first ray, piece), or for rays that see images seeing(tree, span, excluded, first ray, piece), for
+// all pieces of `most` rays.
+template <class Plain, class Seeing>
+void trace_all(const RayTree& tree, const RayArrays& rays, std::int64_t most, bool see_images,
+               const GivenSpheres& exclude, const Plain& plain, const Seeing& seeing) {
+  const WideTree* const periodic = tree_of_images(tree, see_images);
+  const std::int64_t* const excluded = exclude ? exclude->data() : nullptr;
+  FirstWithoutEnd without_end;
+  trace_in_pieces(tree, rays, most, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
+    if (periodic == nullptr)
+      plain(span, first, piece);
+    else if (!without_end.is_before(first))
+      without_end.take(first, seeing(*periodic, span, excluded != nullptr ? excluded + first : nullptr, first, piece));
+  });
+  value_of(without_end.status());
 }
 
 RayOrder order_of(bool in_blocks) {
   return in_blocks ? RayOrder::blocks : RayOrder::any;
 }
 
-py::tuple closest(const RayTree& tree, const py::array& origin, const py::array& direction,
-                  const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
-                  const std::optional<py::array_t<std::int64_t>>& leaves,
-                  const std::optional<py::array_t<std::uint8_t>>& inside,
-                  const std::optional<py::array_t<std::int64_t>>& exclude, bool see_images, bool in_blocks) {
-  const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
+py::tuple closest(const RayTree& tree, const GivenRays& given, const GivenSpheres& exclude, bool see_images,
+                  bool in_blocks) {
+  const RayArrays rays = rays_from(given);
   py::array_t<double> t(rays.count);
   py::array_t<std::int64_t> id(rays.count);
   const HitSpan hits{t.mutable_data(), id.mutable_data()};
   const RayOrder order = order_of(in_blocks);
-  const WideTree* const periodic = tree_of_images(tree, see_images);
-  FirstWithoutEnd without_end;
-  trace_in_pieces(
-      tree, rays, rays_per_piece(tree, rays.count, order), [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-        if (periodic == nullptr)
-          tree.tracer->closest_hits(span, order, hits.part(first));
-        else if (!without_end.is_before(first))
-          without_end.take(first,
-                           tree.images->closest_hits(*periodic, span, hits.part(first), excluded_from(exclude, first)));
+  trace_all(
+      tree, rays, rays_per_piece(tree, rays.count, order), see_images, exclude,
+      [&](const RaySpan& span, auto first, auto) { tree.tracer->closest_hits(span, order, hits.part(first)); },
+      [&](const WideTree& wide, const RaySpan& span, auto excluded, auto first, auto) {
+        return tree.images->closest_hits(wide, span, hits.part(first), excluded);
       });
-  value_of(without_end.status());
   return py::make_tuple(t, id);
 }
 
-py::array_t<bool> occluded(const RayTree& tree, const py::array& origin, const py::array& direction,
-                           const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
-                           const std::optional<py::array_t<std::int64_t>>& leaves,
-                           const std::optional<py::array_t<std::uint8_t>>& inside,
-                           const std::optional<py::array_t<std::int64_t>>& exclude, bool see_images, bool in_blocks) {
-  const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
+py::array_t<bool> occluded(const RayTree& tree, const GivenRays& given, const GivenSpheres& exclude, bool see_images,
+                           bool in_blocks) {
+  const RayArrays rays = rays_from(given);
   py::array_t<bool> hidden(rays.count);
   static_assert(sizeof(bool) == sizeof(std::uint8_t));
   auto* const to = reinterpret_cast<std::uint8_t*>(hidden.mutable_data());
   const RayOrder order = order_of(in_blocks);
-  const WideTree* const periodic = tree_of_images(tree, see_images);
-  FirstWithoutEnd without_end;
-  trace_in_pieces(
-      tree, rays, rays_per_piece(tree, rays.count, order), [&](const RaySpan& span, std::int64_t first, std::int64_t) {
-        if (periodic == nullptr)
-          tree.tracer->occluded(span, order, to + first);
-        else if (!without_end.is_before(first))
-          without_end.take(first, tree.images->occluded(*periodic, span, to + first, excluded_from(exclude, first)));
+  trace_all(
+      tree, rays, rays_per_piece(tree, rays.count, order), see_images, exclude,
+      [&](const RaySpan& span, auto first, auto) { tree.tracer->occluded(span, order, to + first); },
+      [&](const WideTree& wide, const RaySpan& span, auto excluded, auto first, auto) {
+        return tree.images->occluded(wide, span, to + first, excluded);
       });
-  value_of(without_end.status());
   return hidden;
 }
 
 // Three arrays with an entry for each hit: ray, t, id; and the first entry of each ray, and their number.
-py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::array& direction,
-                    const std::optional<py::array>& t_min, const std::optional<py::array>& t_max,
-                    const std::optional<py::array_t<std::int64_t>>& leaves,
-                    const std::optional<py::array_t<std::uint8_t>>& inside,
-                    const std::optional<py::array_t<std::int64_t>>& exclude, bool see_images) {
-  const WideTree* const periodic = tree_of_images(tree, see_images);
+py::tuple every_hit(const RayTree& tree, const GivenRays& given, const GivenSpheres& exclude, bool see_images) {
   const WideTree& wide = wide_tree_for(tree, "all_hits");
-  const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
+  const RayArrays rays = rays_from(given);
   const std::int64_t most = std::min(rays_per_piece(tree, rays.count, RayOrder::any), kMostRaysOfHits);
   std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
-  FirstWithoutEnd without_end;
-  trace_in_pieces(tree, rays, most, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
-    std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
-    if (periodic == nullptr)
-      all_hits(wide, span, found);
-    else if (!without_end.is_before(first))
-      without_end.take(first, tree.images->all_hits(wide, span, found, excluded_from(exclude, first)));
-    for (RayHit& hit : found) hit.ray += first;
-  });
-  value_of(without_end.status());
+  trace_all(
+      tree, rays, most, see_images, exclude,
+      [&](const RaySpan& span, auto, auto piece) { all_hits(wide, span, hits[static_cast<std::size_t>(piece)]); },
+      [&](const WideTree&, const RaySpan& span, auto excluded, auto, auto piece) {
+        return tree.images->all_hits(wide, span, hits[static_cast<std::size_t>(piece)], excluded);
+      });
   std::size_t count = 0;
   for (const std::vector<RayHit>& some : hits) count += some.size();
   const auto size = static_cast<py::ssize_t>(count);
@@ -292,14 +285,15 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
   double* to_t = t.mutable_data();
   py::array_t<std::int64_t> begin(static_cast<py::ssize_t>(rays.count + 1));
   std::int64_t* const to_begin = begin.mutable_data();
-  std::int64_t next_ray = 0, next_hit = 0;
+  std::int64_t next_ray = 0, next_hit = 0, first = 0;
   for (std::vector<RayHit>& some : hits) {
     for (const RayHit& hit : some) {
-      while (next_ray <= hit.ray) to_begin[next_ray++] = next_hit;
-      *to_ray++ = hit.ray, *to_t++ = hit.t, *to_id++ = hit.sphere_id;
+      while (next_ray <= first + hit.ray) to_begin[next_ray++] = next_hit;
+      *to_ray++ = first + hit.ray, *to_t++ = hit.t, *to_id++ = hit.sphere_id;
       ++next_hit;
     }
     some = {};
+    first += most;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
   while (next_ray <= rays.count) to_begin[next_ray++] = next_hit;
@@ -314,7 +308,7 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
                    const py::array_t<double, py::array::c_style>& t,
                    const py::array_t<std::int64_t, py::array::c_style>& id, bool see_images, bool with_derivatives) {
   const SphereSet& set = tree.spheres->file.spheres;
-  const RayArrays rays = rays_from(origin, direction, {}, {}, {}, {});
+  const RayArrays rays = rays_from({origin, direction, {}, {}, {}, {}});
   const std::int64_t hits = t.size();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto rows = [&](std::vector<py::ssize_t> shape) {
