@@ -22,10 +22,9 @@ constexpr double kLegendMark = 20;   // a legend entry's mark with its gap
 constexpr double kEntryGap = 14;     // between two legend entries
 constexpr double kGroupFill = 0.84;  // the bars' share of a category's room
 constexpr int kTicks = 6;            // approximate number of ticks on the y axis
-constexpr double kMarker = 4.2;      // half the size of a point
 
 // Seven colours that colour-blind people can tell apart [OkabeIto2008]. Its black is replaced by the text's colour,
-// which changes with the dark scheme. Lines also differ by the shape of their points.
+// which changes with the dark scheme.
 constexpr const char* kColours[] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7",
                                     "#56b4e9", "#d55e00", "#f0e442", "currentColor"};
 
@@ -37,7 +36,6 @@ constexpr const char* kStyle =
     ".bihive-chart .outline{stroke:currentColor;stroke-width:.6}"
     ".bihive-chart .error{stroke:currentColor;stroke-width:1;fill:none}"
     ".bihive-chart .hollow{stroke:currentColor;stroke-width:1.4;fill:var(--paper)}"
-    ".bihive-chart .line{fill:none;stroke-width:2.2;stroke-linejoin:round}"
     "@media(prefers-color-scheme:dark){.bihive-chart{--paper:#16181c;--rule:#3a3e45;color:#e6e6e6}}</style>";
 
 std::string colour(std::size_t series) {
@@ -119,33 +117,6 @@ Axis axis_of(const ChartData& data) {
   return linear_axis(lo, lo == hi ? lo + 1 : hi);
 }
 
-// A point of a line, by series: disc, square, triangle, diamond, triangle on its tip, cross.
-std::string point(double x, double y, std::size_t series, const std::string& classes, const std::string& title) {
-  const double s = kMarker;
-  std::string shape;
-  switch (series % 6) {
-    case 0:
-      shape = fmt::format("M{0:.1f} {2:.1f}a{1} {1} 0 1 0 {3} 0a{1} {1} 0 1 0 -{3} 0z", x - s, s, y, 2 * s);
-      break;
-    case 1:
-      shape = fmt::format("M{:.1f} {:.1f}h{}v{}h-{}z", x - s, y - s, 2 * s, 2 * s, 2 * s);
-      break;
-    case 2:
-      shape = fmt::format("M{:.1f} {:.1f}l{} {}h-{}z", x, y - s, s, 2 * s, 2 * s);
-      break;
-    case 3:
-      shape = fmt::format("M{:.1f} {:.1f}l{} {}l-{} {}l-{} -{}z", x, y - 1.3 * s, s, 1.3 * s, s, 1.3 * s, s, 1.3 * s);
-      break;
-    case 4:
-      shape = fmt::format("M{:.1f} {:.1f}l{} -{}h-{}z", x, y + s, s, 2 * s, 2 * s);
-      break;
-    default:
-      shape = fmt::format("M{0:.1f} {1:.1f}h{2}v-{2}h{2}v{2}h{2}v{2}h-{2}v{2}h-{2}v-{2}h-{2}z", x - s, y - s / 3,
-                          2 * s / 3);
-  }
-  return fmt::format("<path class=\"{}\" d=\"{}\" fill=\"{}\">{}</path>\n", classes, shape, colour(series), title);
-}
-
 class Chart {
  public:
   explicit Chart(const ChartData& data) : data_(data), axis_(axis_of(data)) {
@@ -200,28 +171,7 @@ class Chart {
                           width * (static_cast<double>(mark.series) + 0.5),
                       y_of(mark.value),
                       fmt::format("<title>{}: {}</title>", escape_html(mark.name), number_text(mark.value)));
-    return document(marks, /*lines=*/false);
-  }
-
-  std::string lines() const {
-    std::string marks;
-    for (std::size_t s = 0; s < data_.series.size(); ++s) {
-      // A missing value interrupts the line.
-      std::string path, points;
-      bool pen_down = false;
-      for (std::size_t c = 0; c < data_.categories.size(); ++c) {
-        const std::optional<double> value = value_of(s, c);
-        if (value) {
-          const double x = left_ + slot() * (static_cast<double>(c) + 0.5), y = y_of(*value);
-          path += fmt::format("{}{:.1f} {:.1f}", pen_down ? 'L' : 'M', x, y);
-          points += error_bar(s, c, x) + point(x, y, s, "mark outline", title_of(s, c));
-        }
-        pen_down = value.has_value();
-      }
-      if (!path.empty()) marks += fmt::format("<path class=\"line\" stroke=\"{}\" d=\"{}\"/>\n", colour(s), path);
-      marks += points;
-    }
-    return document(marks, /*lines=*/true);
+    return document(marks);
   }
 
  private:
@@ -282,17 +232,12 @@ class Chart {
     return out;
   }
 
-  std::string legend(bool lines) const {
+  std::string legend() const {
     std::string out;
     for (std::size_t s = 0; s < data_.series.size(); ++s) {
       const auto [x, y] = legend_[s];
-      if (lines)
-        out += fmt::format("<path class=\"line\" stroke=\"{}\" d=\"M{:.1f} {:.1f}h14\"/>\n", colour(s), x, y - 4) +
-               point(x + 7, y - 4, s, "outline", "");
-      else
-        out +=
-            fmt::format("<rect class=\"outline\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"10\" fill=\"{}\"/>\n",
-                        x + 1, y - 9, colour(s));
+      out += fmt::format("<rect class=\"outline\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"12\" height=\"10\" fill=\"{}\"/>\n",
+                         x + 1, y - 9, colour(s));
       out += text(x + kLegendMark, y, "", data_.series[s].name);
     }
     if (!data_.marks.empty()) {
@@ -302,13 +247,13 @@ class Chart {
     return out;
   }
 
-  std::string document(const std::string& marks, bool lines) const {
+  std::string document(const std::string& marks) const {
     return fmt::format(
                "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"bihive-chart\" viewBox=\"0 0 {} {:.0f}\" "
                "role=\"img\" "
                "aria-label=\"{}\">\n{}\n",
                kChartWidth, height_, escape_html(data_.title), kStyle) +
-           text(10, 20, "class=\"strong\"", data_.title) + legend(lines) + axes() + marks + "</svg>\n";
+           text(10, 20, "class=\"strong\"", data_.title) + legend() + axes() + marks + "</svg>\n";
   }
 
   const ChartData& data_;
@@ -325,10 +270,6 @@ class Chart {
 
 std::string bar_chart(const ChartData& data) {
   return Chart(data).bars();
-}
-
-std::string line_chart(const ChartData& data) {
-  return Chart(data).lines();
 }
 
 }  // namespace bihive

@@ -1,4 +1,4 @@
-// Charts as SVG text: grouped bars and lines, with axes, legend and labels, readable in light and dark and without a
+// Charts as SVG text: grouped bars with axes, legend and labels, readable in light and dark and without a
 // script.
 #pragma once
 
@@ -39,7 +39,5 @@ struct ChartData {
 
 /// Bars in groups, one group a category. Marks carry <title> with name and value.
 std::string bar_chart(const ChartData& data);
-/// One line a series over the categories.
-std::string line_chart(const ChartData& data);
 
 }  // namespace bihive

@@ -48,9 +48,6 @@ class Trajectory {
   std::vector<std::string> warnings_;
 };
 
-/// Whether the file's first bytes are those of a trajectory: DCD (CHARMM, NAMD, X-PLOR, LAMMPS), XTC or TRR (GROMACS).
-bool looks_like_trajectory(std::string_view first_bytes);
-
 /// Opens a trajectory by its content. Errors: no such file; another format; a damaged head. A file that ends inside a
 /// frame has the frames before it, and a warning.
 Result<std::shared_ptr<const Trajectory>> open_trajectory(const std::string& path);

@@ -126,13 +126,4 @@ std::string option_of(const Parameter& parameter) {
   return option_of_setting(parameter.id);
 }
 
-const Parameter* parameter_of_option(std::string_view option) {
-  for (const Parameter& parameter : picture_parameters()) {
-    if (!parameter.has_option) continue;
-    const std::string name = option_of(parameter);
-    if (option == name || (parameter.has_no_option && option == "--no" + name.substr(1))) return &parameter;
-  }
-  return nullptr;
-}
-
 }  // namespace bihive

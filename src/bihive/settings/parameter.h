@@ -96,7 +96,5 @@ bool fits(const Parameter& parameter, const SettingValue& value);
 
 /// "--light-points".
 std::string option_of(const Parameter& parameter);
-/// The row of "--light-points" or "--no-shadows"; null: none.
-const Parameter* parameter_of_option(std::string_view option);
 
 }  // namespace bihive

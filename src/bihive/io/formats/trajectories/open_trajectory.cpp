@@ -13,11 +13,6 @@
 
 namespace bihive {
 
-bool looks_like_trajectory(std::string_view first_bytes) {
-  return std::any_of(trajectory_formats().begin(), trajectory_formats().end(),
-                     [first_bytes](const TrajectoryFormat* format) { return format->recognise(first_bytes); });
-}
-
 Result<std::shared_ptr<const Trajectory>> open_trajectory(const std::string& path) {
   constexpr std::int64_t kLook = 128;
   const DataPath named = data_path(path);
