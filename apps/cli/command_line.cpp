@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/version.h"
 #include "bihive/io/known_formats.h"
@@ -402,8 +403,7 @@ void add_measure(CLI::App& app, MeasureCommandOptions& options, Request& request
             "Add this to every radius: 1.4 A gives the solvent-accessible surface (0)",
             [](const std::string& text) -> Result<double> {
               const auto probe = parse_double(text);
-              if (!probe || !(*probe >= 0 && *probe <= 1e30))
-                return Error{"expected a number of at least 0, found \"" + text + "\"", "", 0, 0, ""};
+              if (!probe || !(*probe >= 0 && *probe <= 1e30)) return unexpected("a number of at least 0", text);
               return *probe;
             });
   command.add_option("--select", options.select, "Only these spheres exist: docs/selections.md")->type_name("EXPR");
@@ -445,7 +445,7 @@ void add_convert(CLI::App& app, ConvertOptions& options, Request& request) {
               static constexpr const char* formats[] = {"xyz", "extxyz", "csv", "npy", "ply", "scene"};
               for (const char* format : formats)
                 if (text == format) return text;
-              return Error{"expected xyz, extxyz, csv, npy, ply or scene, found \"" + text + "\"", "", 0, 0, ""};
+              return unexpected("xyz, extxyz, csv, npy, ply or scene", text);
             });
   command.add_option("--select", options.select, "Only these spheres: docs/selections.md")->type_name("EXPR");
   add_input_options(command, options.input);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/compare/structure.h"
 #include "bihive/select/selection.h"
 #include "request_options.h"
@@ -33,7 +34,7 @@ Result<std::pair<int, int>> pixel_from(const std::string& text) {
   const auto x = parse_int(text.substr(0, comma));
   const auto y = comma == std::string::npos ? std::nullopt : parse_int(text.substr(comma + 1));
   if (!x || !y || *x < 0 || *y < 0 || *x > kMost || *y > kMost)
-    return Error{"expected a pixel X,Y, found \"" + text + "\"", "", 0, 0, "0,0 is the top left corner"};
+    return unexpected("a pixel X,Y", text, "0,0 is the top left corner");
   return std::pair(static_cast<int>(*x), static_cast<int>(*y));
 }
 

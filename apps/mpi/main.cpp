@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "../shared/last_line.h"
+#include "bihive/base/fnv.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
 #include "bihive/base/version.h"
@@ -67,11 +68,8 @@ void check_film(const FilmOptions& options) {
 }
 
 std::uint64_t hash_of(const std::vector<std::string>& texts) {
-  // 64-bit FNV-1a, with the end of each text.
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const std::string& text : texts)
-    for (std::size_t i = 0; i <= text.size(); ++i)
-      hash = (hash ^ static_cast<unsigned char>(text.c_str()[i])) * 0x100000001b3;
+  std::uint64_t hash = fnv1a("");
+  for (const std::string& text : texts) hash = fnv1a({text.c_str(), text.size() + 1}, hash);  // with the end of each
   return hash;
 }
 

@@ -14,10 +14,10 @@
 #include "bihive/geometry/ray.h"
 #include "bihive/geometry/sphere_distance.h"
 #include "bihive/math/rng.h"
-#include "bihive/render/query/brute_force_points.h"
 #include "bihive/simd/target.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/wide_builder.h"
+#include "support/brute_force_points.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"
 

@@ -10,7 +10,7 @@
 
 #include "bihive/compare/structure.h"
 #include "bihive/render/query/brute_force.h"
-#include "bihive/render/query/brute_force_points.h"
+#include "support/brute_force_points.h"
 #include "support/effort.h"
 #include "support/hostile_sets.h"
 #include "support/query_rays.h"

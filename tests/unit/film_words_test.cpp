@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/fnv.h"
 #include "film/codec_words.h"
 #include "film/content_hash.h"
 #include "film/picture_index.h"
@@ -68,7 +69,7 @@ TEST(CodecOfFile, ErrorsShowNoControlCharacters) {
 }
 
 TEST(PictureIndex, HoldsWhatWasWritten) {
-  const IndexEntry one{0, 120, hash_of("one")}, two{7, 99, hash_of("two")};
+  const IndexEntry one{0, 120, fnv1a("one")}, two{7, 99, fnv1a("two")};
   const std::string text = index_head(5) + index_line(one) + index_line(two);
   const auto index = read_index(text, 5);
   ASSERT_TRUE(index);
@@ -78,7 +79,7 @@ TEST(PictureIndex, HoldsWhatWasWritten) {
 }
 
 TEST(PictureIndex, KnowsThePicturesOfOtherFilms) {
-  const IndexEntry one{0, 120, hash_of("one")}, two{7, 99, hash_of("two")}, three{0, 1, hash_of("three")};
+  const IndexEntry one{0, 120, fnv1a("one")}, two{7, 99, fnv1a("two")}, three{0, 1, fnv1a("three")};
   const std::string first = index_head(5) + index_line(one), text = first + index_head(6) + index_line(two);
   for (const auto& [whole, film] : {std::pair(text, 6), std::pair(text, 5), std::pair(text, 4)}) {
     const auto index = read_index(whole, static_cast<std::uint64_t>(film));
@@ -100,7 +101,7 @@ TEST(PictureIndex, IsNoOtherFile) {
 }
 
 TEST(PictureIndex, LosesAtMostTheLineThatAKillHasCut) {
-  const IndexEntry one{0, 120, hash_of("one")}, two{12345678, 99, hash_of("two")};
+  const IndexEntry one{0, 120, fnv1a("one")}, two{12345678, 99, fnv1a("two")};
   const std::string first = index_head(5) + index_line(one), text = first + index_line(two);
   for (std::size_t size = 0; size < text.size(); ++size) {
     const std::string cut = text.substr(0, size);

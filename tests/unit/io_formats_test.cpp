@@ -122,9 +122,9 @@ TEST(Formats, KeepTheirNumbersInAnIndex) {
 }
 
 TEST(Formats, KnowEndingsOfPackedFiles) {
-  EXPECT_EQ(ending_of("a/b.PDB.gz"), ".pdb");
-  EXPECT_EQ(ending_of("b.xyz.zst"), ".xyz");
-  for (const char* name : {"", "pdb", "a.pdb/b"}) EXPECT_EQ(ending_of(name), "") << name;
+  EXPECT_EQ(unpacked_ending_of("a/b.PDB.gz"), ".pdb");
+  EXPECT_EQ(unpacked_ending_of("b.xyz.zst"), ".xyz");
+  for (const char* name : {"", "pdb", "a.pdb/b"}) EXPECT_EQ(unpacked_ending_of(name), "") << name;
 }
 
 // Programs in Fortran write them in every format of text.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bihive/base/ascii.h"
 #include "bihive/base/json_text.h"
 #include "bihive/base/near_name.h"
 #include "bihive/base/parse_number.h"
@@ -26,20 +27,16 @@ constexpr double kFarthest = 1e37;  // rays are binary32
 // One line of the file; a message without the line's number, or an empty text.
 std::string read_box(const std::string& line, Box& box) {
   std::array<double, 6> numbers{};
-  std::size_t first = 0;
+  const std::vector<std::string_view> fields = parts_of(line, ',');
   for (std::size_t column = 0; column < 6; ++column) {
-    if (first > line.size()) return fmt::format("expected six numbers, {}, found {}", kColumns, column);
-    const std::size_t end = std::min(line.find(',', first), line.size());
-    std::string field = line.substr(first, end - first);
-    field.erase(0, field.find_first_not_of(" \t"));
-    field.erase(field.find_last_not_of(" \t") + 1);
+    if (column == fields.size()) return fmt::format("expected six numbers, {}, found {}", kColumns, column);
+    const std::string_view field = trim(fields[column]);
     const auto number = parse_double(field);
     if (!number || !(std::abs(*number) <= kFarthest))
       return fmt::format("expected a number up to 1e37, found \"{}\"", field);
     numbers[column] = *number;
-    first = end + 1;
   }
-  if (first <= line.size()) return "expected six numbers, found more";
+  if (fields.size() > 6) return "expected six numbers, found more";
   box = {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
   for (int axis = 0; axis < 3; ++axis)
     if (box.lo[axis] > box.hi[axis])

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/base/sha256.h"
 #include "bihive/base/write_file.h"
@@ -25,16 +26,6 @@ RenderSettings settings_of(const RenderSettings& settings, const Tile& pixels) {
   RenderSettings of_part = settings;
   of_part.crop = pixels;
   return of_part;
-}
-
-// In lower case, with its dot; empty: none.
-std::string ending_of(const std::string& output) {
-  const std::size_t dot = output.rfind('.');
-  if (dot == std::string::npos || output.find('/', dot) != std::string::npos) return "";
-  std::string ending = output.substr(dot);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return ending;
 }
 
 // The record of a picture whose pixels come by rows.

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "bihive/base/ascii.h"
 #include "bihive/base/readable.h"
 #include "bihive/base/setting_name.h"
 
@@ -66,14 +67,10 @@ bool is_in(const std::string_view (&list)[Count], std::string_view word) {
   return std::find(std::begin(list), std::end(list), word) != std::end(list);
 }
 
-bool is_letter_or_digit(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-}
-
 bool is_plain_value(std::string_view word) {
   if (word.empty() || word.size() > kLongestValue) return false;
   // "-1" is a number, and "+faststart" a flag.
-  const bool is_number = word.size() > 1 && word[0] == '-' && word[1] >= '0' && word[1] <= '9';
+  const bool is_number = word.size() > 1 && word[0] == '-' && is_digit(word[1]);
   if (!is_number && word[0] != '+' && !is_letter_or_digit(word[0])) return false;
   return std::all_of(word.begin() + 1, word.end(), [](char c) {
     return is_letter_or_digit(c) || std::string_view("_+-.").find(c) != std::string_view::npos;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "bihive/base/fnv.h"
 #include "bihive/job/film/system_failure.h"
 
 namespace bihive::cli {
@@ -14,20 +15,15 @@ constexpr int kHashDigits = 16;
 
 }  // namespace
 
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {
-  for (const char c : bytes) before = (before ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return before;
-}
-
 std::uint64_t hash_of_file(int file, const std::string& path) {
-  std::uint64_t hash = hash_of("");
+  std::uint64_t hash = fnv1a("");
   char buffer[1 << 16];
   for (;;) {
     const ssize_t count = read(file, buffer, sizeof(buffer));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) fail_of_system("cannot be read", path, errno);
     if (count == 0) return hash;
-    hash = hash_of({buffer, static_cast<std::size_t>(count)}, hash);
+    hash = fnv1a({buffer, static_cast<std::size_t>(count)}, hash);
   }
 }
 

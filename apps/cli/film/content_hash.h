@@ -8,9 +8,7 @@
 
 namespace bihive::cli {
 
-/// 64-bit FNV-1a; `before`: the hash of the preceding bytes.
-std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325u);
-/// The hash of an open file, from its position on; `path` is for messages. Fails with kBadInput.
+/// fnv1a() of an open file, from its position on; `path` is for messages. Fails with kBadInput.
 std::uint64_t hash_of_file(int file, const std::string& path);
 
 /// As 16 hexadecimal digits, and back; nothing if a text is none.

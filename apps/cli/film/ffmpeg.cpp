@@ -66,7 +66,7 @@ std::string last_line(std::string text) {
 
 // A file without a name.
 Descriptor open_scratch(const OwnFolder& folder) {
-  const std::string name = ".bihive-" + random_digits() + ".part";
+  const std::string name = random_part_name();
   std::optional<Descriptor> file = folder.open_file(name, O_RDWR | O_CREAT | O_EXCL);
   if (!file) fail_of_system("cannot be written", folder.path_of(name), ENOENT);
   folder.remove(name);

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <utility>
 
+#include "bihive/base/fnv.h"
+#include "bihive/base/path_parts.h"
 #include "bihive/base/place_file.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
@@ -53,9 +55,9 @@ bool holds_pictures(const OwnFolder& folder) {
 FilmFolder::FilmFolder(std::string output, FilmKind kind) : output_(std::move(output)), kind_(kind) {
   const bool parts = kind_ != FilmKind::pictures;
   const std::string beside = cli::plan_path(output_);
-  path_ = parts ? part_path(output_) : folder_around(beside);
-  plan_name_ = parts ? kPlan : last_name(beside);
-  if (parts) parent_ = open_parent(folder_around(path_));
+  path_ = parts ? part_path(output_) : folder_of(beside);
+  plan_name_ = parts ? kPlan : name_in_folder(beside);
+  if (parts) parent_ = open_parent(folder_of(path_));
 
   // Open the parts of an earlier run.
   folder_ = parts ? OwnFolder::open_private(path_) : OwnFolder::open_shared(path_);
@@ -86,7 +88,7 @@ std::string FilmFolder::plan_path() const {
 }
 
 std::uint64_t FilmFolder::plan_hash() const {
-  return hash_of(plan_text_);
+  return fnv1a(plan_text_);
 }
 
 void FilmFolder::begin(const FilmPlan& plan, bool alone) {
@@ -126,13 +128,13 @@ void FilmFolder::make_for_sequence() {
 }
 
 void FilmFolder::remove_rests() const {
-  remove_leftovers(parent_.get(), folder_around(path_));
+  remove_leftovers(parent_.get(), folder_of(path_));
 }
 
 // Use an unguessable name, so that a killed run leaves no FILE.part without a picture.
 void FilmFolder::make_hidden() {
   remove_rests();
-  HiddenFolder made = make_hidden_folder(parent_.get(), folder_around(path_), alone_ ? LOCK_EX : LOCK_SH);
+  HiddenFolder made = make_hidden_folder(parent_.get(), folder_of(path_), alone_ ? LOCK_EX : LOCK_SH);
   hidden_ = made.name;
   folder_ = std::move(made.folder);
   lock_ = std::move(made.lock);
@@ -244,13 +246,13 @@ void FilmFolder::leave_nothing() {
 
 std::optional<FilmPlan> finished_film(const std::string& output, const FilmPlan::Asked& asked) {
   try {
-    const std::optional<OwnFolder> folder = OwnFolder::open_shared(folder_around(output));
+    const std::optional<OwnFolder> folder = OwnFolder::open_shared(folder_of(output));
     const std::string described = plan_path(output);
-    const std::optional<std::string> text = folder ? folder->read(last_name(described)) : std::nullopt;
+    const std::optional<std::string> text = folder ? folder->read(name_in_folder(described)) : std::nullopt;
     if (!text) return std::nullopt;
     const FilmPlan plan = parse_film_plan(*text, described);
     if (!plan.made || !difference(plan.asked, asked).empty()) return std::nullopt;
-    const FilmPlan::Made there = made_film(*folder, last_name(output));
+    const FilmPlan::Made there = made_film(*folder, name_in_folder(output));
     return there.bytes == plan.made->bytes && there.hash == plan.made->hash ? std::optional(plan) : std::nullopt;
   } catch (const Failure&) {
     // Other files have these names, or none.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/job/film/hidden_folder.h"
 #include "bihive/job/film/own_folder.h"
 #include "film/film_plan.h"
@@ -61,7 +62,7 @@ class FilmFolder {
   void join_other(OwnFolder other);
   void lock();
   void remove_all();
-  std::string part_name() const { return last_name(path_); }
+  std::string part_name() const { return name_in_folder(path_); }
 
   std::string output_;
   FilmKind kind_;

@@ -3,20 +3,12 @@
 #include <array>
 #include <cstddef>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/job/failure.h"
 #include "film/film_sink.h"
 
 namespace bihive::cli {
 namespace {
-
-std::string lower_ending(const std::string& output) {
-  const std::size_t dot = output.rfind('.');
-  if (dot == std::string::npos || output.find('/', dot) != std::string::npos) return "";
-  std::string ending = output.substr(dot);
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return ending;
-}
 
 // The path of a picture of a sequence, split at its number, and the minimum number of digits.
 struct SequencePaths {
@@ -61,7 +53,7 @@ SequencePaths sequence_paths(const std::string& pattern) {
 }  // namespace
 
 FilmKind film_kind(const std::string& output) {
-  const std::string ending = lower_ending(output);
+  const std::string ending = ending_of(output);
   if (ending == ".png") {
     sequence_paths(output);
     return FilmKind::pictures;
@@ -76,13 +68,13 @@ FilmKind film_kind(const std::string& output) {
 }
 
 bool is_animation(const std::string& output) {
-  const std::string ending = lower_ending(output);
+  const std::string ending = ending_of(output);
   return ending == ".gif" || ending == ".apng";
 }
 
 void check_link_of_film(const std::string& link, const std::string& film) {
-  const std::string ending = lower_ending(link);
-  if (ending != lower_ending(film))
+  const std::string ending = ending_of(link);
+  if (ending != ending_of(film))
     fail_usage("the link " + link + " leads to " + film + ", which does not end in " + ending,
                "let both end alike, or name the file itself");
 }

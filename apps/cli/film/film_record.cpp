@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "bihive/base/ascii.h"
+#include "bihive/base/path_parts.h"
 #include "bihive/base/write_file.h"
 #include "bihive/image/png.h"
 #include "bihive/job/failure.h"
@@ -23,14 +25,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kBlock = 255;  // of a GIF
 constexpr unsigned char kExtension = 0x21, kComment = 0xFE, kImage = 0x2C, kTrailer = 0x3B;
 constexpr const char* kTag = "comment";
-
-// In lower case, with its dot.
-std::string ending_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return ending;
-}
 
 std::string gif_comment(const std::string& text) {
   std::string bytes{static_cast<char>(kExtension), static_cast<char>(kComment)};
@@ -96,10 +90,7 @@ std::string tag_in(const std::string& metadata) {
   const std::string begin = "\n" + std::string(kTag) + "=";
   std::size_t at = metadata.find(begin);
   if (at == std::string::npos) {
-    std::string upper = begin;
-    std::transform(upper.begin(), upper.end(), upper.begin(),
-                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-    at = metadata.find(upper);
+    at = metadata.find(upper_case(begin));
   }
   std::string value;
   if (at == std::string::npos) return value;

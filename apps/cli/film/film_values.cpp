@@ -11,9 +11,7 @@ namespace {
 constexpr std::int64_t kMostOfRate = 1'000'000;
 
 Error rate_error(const std::string& text) {
-  return {"expected pictures per second, a number from 0.001 to 1000000 such as 25, 29.97 or 30000/1001, found \"" +
-              text + "\"",
-          "", 0, 0, ""};
+  return unexpected("pictures per second, a number from 0.001 to 1000000 such as 25, 29.97 or 30000/1001", text);
 }
 
 }  // namespace
@@ -49,7 +47,7 @@ Result<Shard> shard_from(const std::string& text) {
     const Result<std::int64_t> count = whole_number_from_text(text.substr(slash + 1), 1, kMostShards);
     if (index && count && *index < *count) return Shard{*index, *count};
   }
-  return Error{"expected i/N with i from 0 to N - 1, found \"" + text + "\"", "", 0, 0, ""};
+  return unexpected("i/N with i from 0 to N - 1", text);
 }
 
 }  // namespace bihive::cli

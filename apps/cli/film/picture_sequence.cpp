@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "bihive/base/fnv.h"
+#include "bihive/base/path_parts.h"
 #include "bihive/base/write_file.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
@@ -28,7 +30,7 @@ class PictureSequence final : public FilmSink {
  public:
   PictureSequence(FilmFolder& film, SequenceForm form)
       : film_(film), form_(std::move(form)), whole_(form_.wanted.step()) {
-    prefix_ = form_.store ? "" : last_name(plan_path(form_.output));
+    prefix_ = form_.store ? "" : name_in_folder(plan_path(form_.output));
     if (!form_.store) prefix_.resize(prefix_.size() - std::string("film.json").size());
     index_name_ = index_name(prefix_, form_.shard.index, form_.shard.count);
     if (film_.existing() == nullptr) return;
@@ -68,7 +70,7 @@ class PictureSequence final : public FilmSink {
 
  private:
   std::string name_of(std::int64_t number) const {
-    return last_name(form_.store ? shard_picture_path(form_.output, number) : picture_path(form_.output, number));
+    return name_in_folder(form_.store ? shard_picture_path(form_.output, number) : picture_path(form_.output, number));
   }
 
   [[noreturn]] static void refuse(const std::string& path) {
@@ -132,7 +134,7 @@ class PictureSequence final : public FilmSink {
   // The index gets the picture before it exists, so a kill leaves no unknown picture.
   void add_bytes(const OwnFolder& folder, std::int64_t number, const std::string& bytes) {
     if (!index_) open_index(folder);
-    const IndexEntry entry{number, bytes.size(), hash_of(bytes)};
+    const IndexEntry entry{number, bytes.size(), fnv1a(bytes)};
     if (!contains(own_, entry)) append(index_line(entry));
     place(folder, number, bytes);
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/base/version.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/picture_options.h"
@@ -32,11 +33,6 @@ RecordedFilm read_film(const std::string& path) {
           record ? "" : record.error().hint});
   FilmPlan plan = plan_of_record(*record, path);
   return {std::move(*record), std::move(plan)};
-}
-
-std::string folder_of(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  return folder.empty() ? "." : folder.string();
 }
 
 }  // namespace

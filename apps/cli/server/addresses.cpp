@@ -8,6 +8,8 @@
 #include <array>
 #include <memory>
 
+#include "bihive/base/parse_number.h"
+
 namespace bihive::cli {
 namespace {
 
@@ -30,7 +32,7 @@ std::optional<std::string> usual_spelling(const std::string& address) {
 
 Result<std::string> address_from(const std::string& text) {
   if (const std::optional<std::string> address = usual_spelling(text)) return *address;
-  return Error{"expected a numeric address such as 0.0.0.0 or 192.168.1.5, found \"" + text + "\"", "", 0, 0, ""};
+  return unexpected("a numeric address such as 0.0.0.0 or 192.168.1.5", text);
 }
 
 bool is_loopback(const std::string& address) {

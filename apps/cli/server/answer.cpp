@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "bihive/base/ascii.h"
+#include "bihive/base/parse_number.h"
 #include "server/url.h"
 
 namespace bihive::cli {
@@ -29,38 +31,22 @@ void add_common_headers(Answer& answer) {
                                                {"Referrer-Policy", "no-referrer"}});
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-// The items of a comma-separated list.
-std::vector<std::string_view> listed(std::string_view text) {
-  std::vector<std::string_view> parts;
-  while (!text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    parts.push_back(trimmed(text.substr(0, comma)));
-    text.remove_prefix(std::min(comma + 1, text.size()));
-  }
-  return parts;
-}
-
 // "gzip", but not "gzip;q=0" or "gzip; q=0.00".
 bool accepts_gzip(std::string_view accept_encoding) {
-  for (const std::string_view part : listed(accept_encoding)) {
+  for (const std::string_view part : parts_of(accept_encoding, ',')) {
     const std::size_t semicolon = std::min(part.find(';'), part.size());
-    const std::string_view name = trimmed(part.substr(0, semicolon));
+    const std::string_view name = trim(part.substr(0, semicolon));
     if (name != "gzip" && name != "x-gzip" && name != "*") continue;
-    const std::string_view quality = trimmed(part.substr(std::min(semicolon + 1, part.size())));
+    const std::string_view quality = trim(part.substr(std::min(semicolon + 1, part.size())));
     return quality.rfind("q=", 0) != 0 || quality.find_first_not_of("0.", 2) != std::string_view::npos;
   }
   return false;
 }
 
 bool names_tag(std::string_view if_none_match, const std::string& tag) {
-  for (std::string_view part : listed(if_none_match)) {
-    if (part.rfind("W/", 0) == 0) part.remove_prefix(2);
+  for (const std::string_view around : parts_of(if_none_match, ',')) {
+    std::string_view part = trim(around);
+    if (part.starts_with("W/")) part.remove_prefix(2);
     if (part == tag || part == "*") return true;
   }
   return false;
@@ -74,7 +60,7 @@ struct ByteRange {
 // several ranges, malformed text.
 std::optional<ByteRange> range_from(std::string_view text, std::uint64_t size) {
   if (text.rfind("bytes=", 0) != 0) return std::nullopt;
-  text = trimmed(text.substr(6));
+  text = trim(text.substr(6));
   const std::size_t dash = text.find('-');
   if (dash == std::string_view::npos) return std::nullopt;
   const auto number = [](std::string_view digits, std::uint64_t& value) {

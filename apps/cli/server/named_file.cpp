@@ -12,11 +12,11 @@ namespace bihive::cli {
 
 Result<std::shared_ptr<const OpenFile>> OpenFile::open(const std::string& path) {
   // Opening a pipe without a writer must not block.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (descriptor < 0) return Error{std::strerror(errno), path, 0, 0, ""};
-  const std::shared_ptr<OpenFile> file(new OpenFile(descriptor));
+  Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!descriptor) return Error{std::strerror(errno), path, 0, 0, ""};
+  const std::shared_ptr<OpenFile> file(new OpenFile(std::move(descriptor)));
   struct stat facts {};
-  if (fstat(descriptor, &facts) != 0) return Error{std::strerror(errno), path, 0, 0, ""};
+  if (fstat(file->descriptor_.get(), &facts) != 0) return Error{std::strerror(errno), path, 0, 0, ""};
   if (S_ISDIR(facts.st_mode)) return Error{std::strerror(EISDIR), path, 0, 0, ""};
   if (!S_ISREG(facts.st_mode)) return Error{"only a regular file can be shown in the page", path, 0, 0, ""};
   file->size_ = static_cast<std::uint64_t>(facts.st_size);
@@ -25,13 +25,9 @@ Result<std::shared_ptr<const OpenFile>> OpenFile::open(const std::string& path) 
   return std::shared_ptr<const OpenFile>(file);
 }
 
-OpenFile::~OpenFile() {
-  close(descriptor_);
-}
-
 std::size_t OpenFile::read(std::uint64_t offset, char* bytes, std::size_t count) const {
   ssize_t taken = -1;
-  do taken = pread(descriptor_, bytes, count, static_cast<off_t>(offset));
+  do taken = pread(descriptor_.get(), bytes, count, static_cast<off_t>(offset));
   while (taken < 0 && errno == EINTR);
   return taken > 0 ? static_cast<std::size_t>(taken) : 0;
 }

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "bihive/base/open_file.h"
 #include "bihive/base/result.h"
 
 namespace bihive::cli {
@@ -14,9 +16,6 @@ class OpenFile {
  public:
   /// Errors: missing, unreadable, not a regular file.
   static Result<std::shared_ptr<const OpenFile>> open(const std::string& path);
-  ~OpenFile();
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
 
   std::uint64_t size() const { return size_; }
   /// Changes when the file is replaced or written.
@@ -25,8 +24,8 @@ class OpenFile {
   std::size_t read(std::uint64_t offset, char* bytes, std::size_t count) const;
 
  private:
-  explicit OpenFile(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_;
+  explicit OpenFile(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
+  Descriptor descriptor_;
   std::uint64_t size_ = 0;
   std::string version_;
 };

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bihive/base/fnv.h"
 #include "bihive/base/write_file.h"
 
 namespace bihive::cli {
@@ -52,13 +53,6 @@ const TypeOfEnding& type_of(const std::string& name) {
   return kOtherType;
 }
 
-// FNV-1a tells versions of a file apart.
-std::uint64_t hash_of(const std::string& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
-}
-
 }  // namespace
 
 std::string packed_by_gzip(const std::string& bytes) {
@@ -80,7 +74,7 @@ PageFile make_page_file(const std::string& name, std::string bytes) {
   const TypeOfEnding& type = type_of(name);
   PageFile file;
   file.type = type.type;
-  file.tag = fmt::format("{:016x}-{:x}", hash_of(bytes), bytes.size());
+  file.tag = fmt::format("{:016x}-{:x}", fnv1a(bytes), bytes.size());
   if (type.packs && bytes.size() >= kLeastPacked) {
     std::string small = packed_by_gzip(bytes);
     if (!small.empty() && small.size() < bytes.size())

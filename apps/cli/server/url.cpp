@@ -2,25 +2,11 @@
 
 #include <algorithm>
 
+#include "bihive/base/ascii.h"
 #include "server/addresses.h"
 
 namespace bihive::cli {
 namespace {
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-// The value of a hexadecimal digit, -1 for anything else.
-int hex_value(char c) {
-  if (is_digit(c)) return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 bool is_port(std::string_view text) {
   return !text.empty() && text.size() <= 5 && std::all_of(text.begin(), text.end(), is_digit);
@@ -32,7 +18,7 @@ std::string url_escaped(std::string_view text) {
   const char* const digits = "0123456789ABCDEF";
   std::string escaped;
   for (const char c : text) {
-    if (is_letter(c) || is_digit(c) || c == '-' || c == '.' || c == '_' || c == '~') {
+    if (is_letter_or_digit(c) || c == '-' || c == '.' || c == '_' || c == '~') {
       escaped += c;
       continue;
     }
@@ -79,13 +65,10 @@ std::optional<std::string> host_name(std::string_view header) {
   }
   if (!after.empty() && (after.front() != ':' || !is_port(after.substr(1)))) return std::nullopt;
   if (const std::optional<std::string> address = usual_spelling(std::string(name))) return address;
-  std::string small;
-  for (const char c : name) {
-    if (!is_letter(c) && !is_digit(c) && c != '-' && c != '.' && c != '_') return std::nullopt;
-    small += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  if (small.empty()) return std::nullopt;
-  return small;
+  for (const char c : name)
+    if (!is_letter_or_digit(c) && c != '-' && c != '.' && c != '_') return std::nullopt;
+  if (name.empty()) return std::nullopt;
+  return lower_case(name);
 }
 
 }  // namespace bihive::cli

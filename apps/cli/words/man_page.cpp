@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "bihive/base/ascii.h"
 #include "words/program_words.h"
 
 namespace bihive::cli {
@@ -47,14 +48,12 @@ std::string slanted(const std::string& text) {
 }
 
 std::string with_small_letter(std::string text) {
-  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
+  if (!text.empty()) text[0] = lower_case(text[0]);
   return text;
 }
 
 std::string title(const ProgramWords& words, const std::string& name, const std::string& purpose) {
-  std::string upper;
-  for (const char c : name) upper += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  return ".\\\" Written by bihive describe man.\n.TH " + upper + " 1 \"\" \"bihive " + words.version +
+  return ".\\\" Written by bihive describe man.\n.TH " + upper_case(name) + " 1 \"\" \"bihive " + words.version +
          "\" \"User commands\"\n.nh\n.ad l\n.SH NAME\n" + name + " \\- " + roff(purpose) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/base/version.h"
 #include "bihive/io/reading_settings.h"
 #include "bihive/job/failure.h"
@@ -24,26 +25,16 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts{""};
-  for (const char c : text)
-    if (c == separator)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
-
 // "N|auto" offers auto: a keyword in lower case means itself, one in upper case for a kind of value.
-bool stands_for_itself(const std::string& word) {
+bool stands_for_itself(std::string_view word) {
   constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_-.";
   return !word.empty() && word.find_first_not_of(kAllowed) == std::string::npos;
 }
 
 Candidates candidates_of_type(const std::string& type) {
   Candidates found;
-  for (const std::string& part : split(type, '|')) {
-    if (stands_for_itself(part)) found.words.push_back(part);
+  for (const std::string_view part : parts_of(type, '|')) {
+    if (stands_for_itself(part)) found.words.emplace_back(part);
     if (part == "FILE") found.files = true;
     if (part == "DIR") found.folders = true;
     if (part == "PRESET")
@@ -82,8 +73,8 @@ OptionWords read_option(const CLI::Option& option, const std::string& command) {
 // Lines of the footer below "Examples:".
 std::vector<std::string> read_examples(const std::string& footer) {
   std::vector<std::string> examples;
-  for (const std::string& line : split(footer, '\n'))
-    if (line.compare(0, 2, "  ") == 0) examples.push_back(line.substr(2));
+  for (const std::string_view line : parts_of(footer, '\n'))
+    if (line.starts_with("  ")) examples.emplace_back(line.substr(2));
   return examples;
 }
 

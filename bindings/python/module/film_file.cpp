@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/base/place_file.h"
 #include "bihive/job/film/hidden_folder.h"
 #include "errors.h"
@@ -21,7 +22,7 @@ namespace {
 class FilmFile {
  public:
   explicit FilmFile(const std::string& output)
-      : output_(value_of(path_behind_links(output))), around_(folder_around(output_)), parent_(open_parent(around_)) {
+      : output_(value_of(path_behind_links(output))), around_(folder_of(output_)), parent_(open_parent(around_)) {
     remove_leftovers(parent_.get(), around_);
     hidden_.emplace(make_hidden_folder(parent_.get(), around_, LOCK_EX));
   }

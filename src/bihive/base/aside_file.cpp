@@ -14,6 +14,8 @@
 #include <ctime>
 #include <mutex>
 
+#include "bihive/base/open_file.h"
+
 namespace bihive {
 namespace {
 
@@ -24,16 +26,7 @@ constexpr std::size_t kDigits = 16;
 constexpr int kAttempts = 100;
 
 std::string random_name(std::string_view suffix) {
-  unsigned long long bits = 0;
-  if (::getentropy(&bits, sizeof(bits)) != 0) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    bits =
-        static_cast<unsigned long long>(now.tv_nsec) * 0x9e3779b97f4a7c15u ^ static_cast<unsigned long long>(getpid());
-  }
-  char digits[kDigits + 1];
-  std::snprintf(digits, sizeof(digits), "%016llx", bits);
-  return std::string(kPrefix) + digits + std::string(suffix);
+  return std::string(kPrefix) + random_digits() + std::string(suffix);
 }
 
 // Large folders that were read recently: a film of 100,000 pictures must not read its folder once per picture.

@@ -9,11 +9,9 @@
 
 namespace bihive {
 
-/// ".bihive-0123456789abcdef.part": an unguessable name.
-std::string random_part_name();
 /// ".bihive-0123456789abcdef.kept": holds the only copy of a file for a moment, so that no program removes it.
 std::string random_kept_name();
-/// Whether random_part_name() may have made it.
+/// Whether random_part_name() (open_file.h) may have made it.
 bool is_part_name(std::string_view name);
 
 /// Removes the files that killed programs left in the folder, a descriptor: regular files under such names, of this

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "bihive/base/ascii.h"
+
 namespace bihive {
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string letters(text);
-  for (char& c : letters)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return letters;
-}
 
 // The number of letters to change, add, remove or swap with a neighbour [Damerau1964].
 std::size_t letters_apart(std::string_view a, std::string_view b) {
@@ -34,12 +29,12 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
 std::string near_name(std::string_view name, const std::vector<std::string>& candidates) {
   constexpr std::size_t kLongest = 64;
   if (name.size() > kLongest) return "";
-  const std::string wanted = lower(name);
+  const std::string wanted = lower_case(name);
   std::string nearest;
   std::size_t least = std::min<std::size_t>(2, name.size() / 3 + 1) + 1;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > kLongest || candidate.size() < 2) continue;
-    const std::size_t apart = letters_apart(wanted, lower(candidate));
+    const std::size_t apart = letters_apart(wanted, lower_case(candidate));
     if (apart >= least || apart >= candidate.size()) continue;
     least = apart;
     nearest = candidate;

@@ -11,27 +11,20 @@
 #include <optional>
 #include <string_view>
 
+#include "bihive/base/ascii.h"
+#include "bihive/base/path_parts.h"
+
 namespace bihive {
 namespace {
 
 // As many links as Linux follows.
 constexpr int kMostLinks = 40;
 
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
-
-std::string name_of(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);  // npos + 1 is 0
-}
-
 std::optional<int> small_number(std::string_view digits) {
   if (digits.empty() || digits.size() > 6) return std::nullopt;
   int number = 0;
   for (const char c : digits) {
-    if (c < '0' || c > '9') return std::nullopt;
+    if (!is_digit(c)) return std::nullopt;
     number = 10 * number + (c - '0');
   }
   return number;
@@ -50,7 +43,7 @@ std::optional<int> descriptor_of(const std::string& path) {
     of_this_program =
         realpath(folder.c_str(), resolved) != nullptr && resolved == "/proc/" + std::to_string(getpid()) + "/fd";
   }
-  return of_this_program ? small_number(name_of(path)) : std::nullopt;
+  return of_this_program ? small_number(name_in_folder(path)) : std::nullopt;
 }
 
 // Attributes of a file beyond its permissions; none if the system does not report them.
@@ -152,7 +145,7 @@ Result<OutputPlace> find_output(const std::string& given) {
   for (int links = 0;; ++links) {
     if (const std::optional<int> descriptor = descriptor_of(place.path)) return open_descriptor(given, *descriptor);
     place.folder = folder_of(place.path);
-    place.name = name_of(place.path);
+    place.name = name_in_folder(place.path);
     exists = ::lstat(place.path.c_str(), &info) == 0;
     if (!exists && errno != ENOENT && errno != ENOTDIR) return system_error("cannot be written", given, errno);
     if (Status status = check_folder(place.folder, given, folder); !status) return status.error();

@@ -26,11 +26,31 @@ std::optional<std::string> with_e(std::string_view text) {
   return changed;
 }
 
-Error unexpected(const std::string& expected, const std::string& found) {
-  return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
+}  // namespace
+
+Error unexpected(const std::string& expected, std::string_view found, const std::string& hint) {
+  return {"expected " + expected + ", found \"" + std::string(found) + "\"", "", 0, 0, hint};
 }
 
-}  // namespace
+std::vector<std::string_view> parts_of(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::vector<double> numbers_from_text(std::string_view text) {
+  std::vector<double> numbers;
+  for (const std::string_view part : parts_of(text, ',')) {
+    const std::optional<double> number = parse_double(part);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
 
 std::optional<double> parse_double(std::string_view text) {
   text = without_plus(text);

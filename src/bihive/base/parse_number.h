@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bihive/base/result.h"
 
@@ -22,5 +23,14 @@ std::optional<std::int64_t> parse_int(std::string_view text);
 Result<double> number_from_text(const std::string& text, double least, double most, bool open = false);
 Result<std::int64_t> whole_number_from_text(const std::string& text, std::int64_t least,
                                             std::int64_t most = std::numeric_limits<std::int64_t>::max());
+
+/// What stands between separators: one part more than there are separators.
+std::vector<std::string_view> parts_of(std::string_view text, char separator);
+
+/// The numbers between commas; empty if one is none.
+std::vector<double> numbers_from_text(std::string_view text);
+
+/// "expected X,Y,Z, found "1,2""
+Error unexpected(const std::string& expected, std::string_view found, const std::string& hint = "");
 
 }  // namespace bihive

@@ -7,24 +7,11 @@
 #include <cerrno>
 #include <cstdint>
 
+#include "bihive/base/open_file.h"
 #include "bihive/base/output_place.h"
 
 namespace bihive {
 namespace {
-
-class OpenFile {
- public:
-  explicit OpenFile(int file) : file_(file) {}
-  ~OpenFile() {
-    if (file_ >= 0) ::close(file_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  int get() const { return file_; }
-
- private:
-  int file_;
-};
 
 // Some file systems (vfat, CIFS) have neither owners nor permissions. The file is just as good without them.
 void give_owner(int file, const OutputPlace& owner) {
@@ -40,7 +27,7 @@ void give_owner(int file, const OutputPlace& owner) {
 
 // 0 or an errno.
 int copy_over(int from, const std::string& path) {
-  const OpenFile target(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW));
+  const Descriptor target(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW));
   if (target.get() < 0) return errno;
   char buffer[1 << 16];
   std::int64_t size = 0;
@@ -49,11 +36,7 @@ int copy_over(int from, const std::string& path) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return errno;
     if (count == 0) break;
-    for (ssize_t done = 0; done < count;) {
-      const ssize_t written = ::write(target.get(), buffer + done, static_cast<std::size_t>(count - done));
-      if (written < 0 && errno != EINTR) return errno;
-      if (written > 0) done += written;
-    }
+    if (const int code = write_whole(target.get(), {buffer, static_cast<std::size_t>(count)}); code != 0) return code;
     size += count;
   }
   if (::ftruncate(target.get(), static_cast<off_t>(size)) != 0 || ::fsync(target.get()) != 0) return errno;
@@ -73,7 +56,7 @@ Status place_file(int folder, const std::string& name, const std::string& output
   const Result<OutputPlace> place = find_output(output);
   if (!place) return place.error();
   if (!place->regular()) return Error{"is not a regular file", output, 0, 0, "name a file"};
-  const OpenFile file(::openat(folder, name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  const Descriptor file(::openat(folder, name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   struct stat info {};
   if (file.get() < 0 || ::fstat(file.get(), &info) != 0) return system_error("cannot be written", output, errno);
   if (!S_ISREG(info.st_mode)) return Error{"cannot be written: " + name + " is not a regular file", output, 0, 0, ""};
@@ -85,10 +68,7 @@ Status place_file(int folder, const std::string& name, const std::string& output
     const Result<OutputPlace> other = find_output(like);
     if (other && other->regular() && other->kind != OutputPlace::Kind::fresh) give_owner(file.get(), *other);
   }
-  while (::fsync(file.get()) != 0) {
-    if (errno == EINVAL) break;
-    if (errno != EINTR) return system_error("writing failed", output, errno);
-  }
+  if (const int code = flush_to_disk(file.get()); code != 0) return system_error("writing failed", output, code);
 
   // Replace the output.
   if (place->kind == OutputPlace::Kind::in_place) {
@@ -98,7 +78,7 @@ Status place_file(int folder, const std::string& name, const std::string& output
     ::unlinkat(folder, name.c_str(), 0);
     return Done{};
   }
-  const OpenFile target(::open(place->folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor target(::open(place->folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   const int there = target.get() >= 0 ? target.get() : AT_FDCWD;
   const std::string& new_name = target.get() >= 0 ? place->name : place->path;
   if (::renameat(folder, name.c_str(), there, new_name.c_str()) != 0)

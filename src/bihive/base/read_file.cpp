@@ -9,6 +9,7 @@
 #include <new>
 
 #include "bihive/base/memory.h"
+#include "bihive/base/open_file.h"
 #include "bihive/base/output_place.h"
 #include "bihive/base/watch.h"
 #include "bihive/base/write_file.h"
@@ -18,21 +19,6 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 constexpr std::size_t kLeastRoom = std::size_t{1} << 20;
-
-// Closes the file when destroyed.
-class OwnDescriptor {
- public:
-  explicit OwnDescriptor(int file) : file_(file) {}
-  ~OwnDescriptor() {
-    if (file_ >= 0) ::close(file_);
-  }
-  OwnDescriptor(const OwnDescriptor&) = delete;
-  OwnDescriptor& operator=(const OwnDescriptor&) = delete;
-  int get() const { return file_; }
-
- private:
-  int file_;
-};
 
 // Bytes at `to`; 0 at the end of the file, -1 after an error.
 ssize_t read_some(int file, char* to, std::size_t count) {
@@ -108,7 +94,7 @@ Result<std::string> read_descriptor(int file, const std::string& name, bool* gre
 
 Result<std::string> read_file(const std::string& path, bool* grew) {
   if (path.empty()) return Error{"the path is empty", "", 0, 0, "name a file"};
-  const OwnDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
   if (file.get() < 0) return system_error("cannot be opened", path, errno);
   return read_descriptor(file.get(), path, grew);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bihive/base/aside_file.h"
+#include "bihive/base/open_file.h"
 #include "bihive/base/output_place.h"
 
 namespace bihive {
@@ -26,29 +27,9 @@ constexpr int kAttempts = 100;
 constexpr mode_t kOwnerOnly = 0600;
 constexpr mode_t kForAll = 0666;  // less the file mode creation mask
 
-// Writes everything; returns 0, or the errno of the failure.
-int write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      return errno;
-    }
-    if (written == 0) return EIO;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
-
 // The file is closed, whatever the result: 0 or an errno.
 int close_file(int file) {
   return ::close(file) == 0 || errno == EINTR ? 0 : errno;
-}
-
-int flush(int file) {
-  while (::fsync(file) != 0)
-    if (errno != EINTR) return errno == EINVAL ? 0 : errno;
-  return 0;
 }
 
 // Some file systems (FUSE, NFS) report lost bytes only when a descriptor is closed. The file itself stays open, and
@@ -145,7 +126,7 @@ Status GrowingFile::failed(int code) const {
 }
 
 Status GrowingFile::append(std::string_view bytes) {
-  if (const int code = write_all(file_, bytes); code != 0) return failed(code);
+  if (const int code = write_whole(file_, bytes); code != 0) return failed(code);
   size_ += bytes.size();
   return Done{};
 }
@@ -154,7 +135,7 @@ Status GrowingFile::write_at(std::uint64_t place, std::string_view bytes) {
   if (place == size_) return append(bytes);
   if (!can_go_back()) return failed(ESPIPE);
   if (::lseek(file_, static_cast<off_t>(place), SEEK_SET) < 0) return failed(errno);
-  if (const int code = write_all(file_, bytes); code != 0) return failed(code);
+  if (const int code = write_whole(file_, bytes); code != 0) return failed(code);
   size_ = std::max(size_, place + bytes.size());
   if (::lseek(file_, static_cast<off_t>(size_), SEEK_SET) < 0) return failed(errno);
   return Done{};
@@ -200,7 +181,7 @@ int GrowingFile::settle() {
     (void)::fchmod(file_, mode);
   }
 
-  if (const int code = flush(file_); code != 0) return code;
+  if (const int code = flush_to_disk(file_); code != 0) return code;
   return close_copy(file_);
 }
 
@@ -214,12 +195,12 @@ int GrowingFile::copy_in_place() {
     const ssize_t count = ::read(file_, buffer, sizeof(buffer));
     if (count == 0) break;
     if (count > 0)
-      code = write_all(target, {buffer, static_cast<std::size_t>(count)});
+      code = write_whole(target, {buffer, static_cast<std::size_t>(count)});
     else if (errno != EINTR)
       code = errno;
   }
   if (code == 0 && ::ftruncate(target, static_cast<off_t>(size_)) != 0) code = errno;
-  if (code == 0) code = flush(target);
+  if (code == 0) code = flush_to_disk(target);
   const int closed = close_file(target);
   return code != 0 ? code : closed;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "bihive/base/ascii.h"
 #include "bihive/gl/shader_chunks.h"
 
 namespace bihive {
@@ -51,10 +52,6 @@ class Assembler {
  private:
   const ChunkFinder& find_;
 };
-
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
 
 }  // namespace
 

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <string>
 
+#include "bihive/base/ascii.h"
 #include "bihive/base/parse_number.h"
+#include "bihive/math/vector_text.h"
 
 namespace bihive {
 namespace {
@@ -20,20 +22,13 @@ constexpr NamedColour kNamedColours[] = {
     {"purple", 0x800080}, {"brown", 0xA52A2A},  {"pink", 0xFFC0CB},
 };
 
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
 std::optional<std::uint32_t> bytes_from_text(std::string_view text) {
   for (const NamedColour& named : kNamedColours)
     if (named.name == text) return named.rgb;
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
   std::uint32_t rgb = 0;
   for (const char c : text.substr(1)) {
-    const int digit = hex_digit(c);
+    const int digit = hex_value(c);
     if (digit < 0) return std::nullopt;
     rgb = rgb * 16 + static_cast<std::uint32_t>(digit);
   }
@@ -41,26 +36,16 @@ std::optional<std::uint32_t> bytes_from_text(std::string_view text) {
 }
 
 // "srgb(0.5,0.25,1)".
-std::optional<Vec3d> numbers_from_text(std::string_view text) {
+std::optional<Vec3d> srgb_from_text(std::string_view text) {
   constexpr std::string_view kBegin = "srgb(";
   if (!text.starts_with(kBegin) || !text.ends_with(')')) return std::nullopt;
-  std::string_view rest = text.substr(kBegin.size(), text.size() - kBegin.size() - 1);
-  Vec3d numbers;
-  for (int channel = 0; channel < 3; ++channel) {
-    const std::size_t comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (channel == 2)) return std::nullopt;
-    const Result<double> number = number_from_text(std::string(rest.substr(0, comma)), 0, 1);
-    if (!number) return std::nullopt;
-    numbers[channel] = *number;
-    if (channel < 2) rest.remove_prefix(comma + 1);
-  }
-  return numbers;
+  return vector_from_text(text.substr(kBegin.size(), text.size() - kBegin.size() - 1), 0, 1);
 }
 
 // As the screen shows them.
 std::optional<Vec3d> screen_from_text(std::string_view text) {
   const std::optional<std::uint32_t> rgb = bytes_from_text(text);
-  if (!rgb) return numbers_from_text(text);
+  if (!rgb) return srgb_from_text(text);
   const auto channel = [&rgb](int shift) { return ((*rgb >> shift) & 0xFF) / 255.0; };
   return Vec3d{channel(16), channel(8), channel(0)};
 }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "bihive/base/fnv.h"
+
 namespace bihive {
 
 struct Image {
@@ -23,9 +25,7 @@ class PictureHash {
   std::uint64_t value() const { return hash_; }
 
  private:
-  void add(std::uint8_t byte) { hash_ = (hash_ ^ byte) * 0x100000001B3u; }
-
-  std::uint64_t hash_ = 0xCBF29CE484222325u;
+  std::uint64_t hash_ = fnv1a("");
 };
 
 }  // namespace bihive

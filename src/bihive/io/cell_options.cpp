@@ -1,5 +1,6 @@
 #include "bihive/io/cell_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -10,39 +11,18 @@
 namespace bihive {
 namespace {
 
-std::vector<std::string_view> parts_of(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 Result<std::vector<double>> finite_numbers(const std::string& text, std::size_t count, const std::string& form) {
-  const auto bad = [&] {
-    return Error{"expected " + std::to_string(count) + " finite numbers as " + form + ", found \"" + text + "\"", "", 0,
-                 0, ""};
-  };
-  const std::vector<std::string_view> parts = parts_of(text, ',');
-  if (parts.size() != count) return bad();
-  std::vector<double> numbers;
-  for (const std::string_view part : parts) {
-    const std::optional<double> number = parse_double(part);
-    if (!number || !std::isfinite(*number)) return bad();
-    numbers.push_back(*number);
-  }
-  return numbers;
+  std::vector<double> numbers = numbers_from_text(text);
+  if (numbers.size() == count && std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::isfinite(n); }))
+    return numbers;
+  return unexpected(std::to_string(count) + " finite numbers as " + form, text);
 }
 
 }  // namespace
 
 Result<std::array<std::int32_t, 3>> copies_from_text(const std::string& text) {
   const auto bad = [&] {
-    return Error{
-        "expected three whole numbers from 1 to " + std::to_string(kMostCopies) + " as 3x3x1, found \"" + text + "\"",
-        "", 0, 0, ""};
+    return unexpected("three whole numbers from 1 to " + std::to_string(kMostCopies) + " as 3x3x1", text);
   };
   const std::vector<std::string_view> parts = parts_of(text, 'x');
   if (parts.size() != 3) return bad();

@@ -96,17 +96,15 @@ Result<ColumnChoice> columns_from_text(std::string_view text) {
     return Error{what + " in " + quote(text), "", 0, 0, "write PART=COLUMN,..., for example x=px,y=py,z=pz,r=radius"};
   };
   ColumnChoice choice;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    const std::string_view one = trim(text.substr(0, comma));
+  for (const std::string_view around : parts_of(text, ',')) {
+    const std::string_view one = trim(around);
     const std::size_t equals = one.find('=');
     if (equals == std::string_view::npos) return bad("expected PART=COLUMN but found " + quote(one));
     const std::string part(trim(one.substr(0, equals))), column(trim(one.substr(equals + 1)));
     if (part.empty() || column.empty()) return bad("expected a part and a column but found " + quote(one));
     if (!choice.emplace(part, column).second) return bad("the part " + quote(part) + " comes twice");
-    if (comma == std::string_view::npos) return choice;
-    text.remove_prefix(comma + 1);
   }
+  return choice;
 }
 
 }  // namespace bihive

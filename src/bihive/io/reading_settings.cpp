@@ -43,7 +43,7 @@ ordered_json vectors_json(const std::array<Vec3d, 3>& vectors) {
 // From 0, or less than 0 from the end.
 Result<std::int64_t> frame_from_text(const std::string& text) {
   const std::optional<std::int64_t> frame = parse_int(text);
-  if (!frame) return Error{"expected a whole number, found \"" + text + "\"", "", 0, 0, ""};
+  if (!frame) return unexpected("a whole number", text);
   return *frame;
 }
 
@@ -230,7 +230,7 @@ Status GivenReading::take(std::string_view id, const std::string& text) {
   const ReadingSetting* const row = reading_setting(id);
   if (row == nullptr) return Error{"there is no setting of reading \"" + std::string(id) + "\"", "", 0, 0, ""};
   if (row->value_name.empty() && !text.empty() && text != "true")
-    return Error{"expected no value, or true, found \"" + text + "\"", "", 0, 0, "leave it out to switch it off"};
+    return unexpected("no value, or true", text, "leave it out to switch it off");
   if (has(id)) return Error{"is given more than once", "", 0, 0, ""};
   for (const auto& [other, value] : given_)
     if (excludes(*other, *row) || excludes(*row, *other))

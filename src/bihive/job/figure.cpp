@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/base/version.h"
 #include "bihive/image/image_diff.h"
 #include "bihive/image/png.h"
@@ -14,11 +15,6 @@
 
 namespace bihive {
 namespace {
-
-std::string folder_of(const std::string& figure) {
-  const std::filesystem::path folder = std::filesystem::path(figure).parent_path();
-  return folder.empty() ? "." : folder.string();
-}
 
 enum class FigureKind { png, tiff, exr, other };
 
@@ -66,12 +62,8 @@ Image image_of(const PngPixels& pixels) {
 }  // namespace
 
 bool has_name_of_figure(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  for (const char* const one : {".png", ".tif", ".tiff", ".exr"})
-    if (std::equal(ending.begin(), ending.end(), one, one + std::strlen(one),
-                   [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; }))
-      return true;
-  return false;
+  const std::string ending = ending_of(path);
+  return ending == ".png" || ending == ".tif" || ending == ".tiff" || ending == ".exr";
 }
 
 bool looks_like_figure(const std::string& path) {

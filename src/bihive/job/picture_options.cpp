@@ -59,6 +59,16 @@ auto choice(const Names<T>& names) {
   return [&names](const std::string& text) { return choice_from(text, names); };
 }
 
+// A colour, or this word.
+auto colour_or(const std::string& word) {
+  return [word](const std::string& text) -> Result<std::string> {
+    if (text == word) return text;
+    const Result<Vec3d> colour = colour_from(text, Transfer::none);
+    if (!colour) return colour.error();
+    return text;
+  };
+}
+
 // A row for a member of a request, as a row for the request.
 template <class Part>
 Row of_part(const RequestOption<Part>& row, Part PictureRequest::*part) {
@@ -171,25 +181,13 @@ void add_picture(Rows& rows) {
                             .value_name = "COLOUR",
                             .help = "A name, #rrggbb, r,g,b from 0 to 1, or none: transparent (files: white)",
                             .ranks = kChunks,
-                            .take = into(&PictureRequest::background,
-                                         [](const std::string& text) -> Result<std::string> {
-                                           if (text == kNoBackground) return text;
-                                           const Result<Vec3d> colour = colour_from(text, Transfer::none);
-                                           if (!colour) return colour.error();
-                                           return text;
-                                         })},
+                            .take = into(&PictureRequest::background, colour_or(kNoBackground))},
                            {.id = "floor",
                             .value_name = "COLOUR|shadow",
                             .help = "A plane below the spheres: in a colour, or seen by the shadows on it alone",
                             .theme = OptionTheme::style,
                             .ranks = kWhole,
-                            .take = into(&PictureRequest::floor,
-                                         [](const std::string& text) -> Result<std::string> {
-                                           if (text == kFloorOfShadows) return text;
-                                           const Result<Vec3d> colour = colour_from(text, Transfer::none);
-                                           if (!colour) return colour.error();
-                                           return text;
-                                         })},
+                            .take = into(&PictureRequest::floor, colour_or(kFloorOfShadows))},
                            {.id = "bits",
                             .value_name = "8|16",
                             .help = "Bits of each number in the picture (8)",
@@ -259,8 +257,8 @@ Status set_view(PictureRequest& request, const std::string& text) {
   }
   const ViewFrom* const side = value_named(kSides, text);
   if (side == nullptr)
-    return Error{"expected one of " + joined_names(kSides) + ", principal or best:EXPR, found \"" + text + "\"", "", 0,
-                 0, text == "best" ? "name the spheres: best:'chain A'" : ""};
+    return unexpected("one of " + joined_names(kSides) + ", principal or best:EXPR", text,
+                      text == "best" ? "name the spheres: best:'chain A'" : "");
   request.view_from = *side;
   return Done{};
 }

@@ -80,9 +80,7 @@ ordered_json pairs(const Settings& settings) {
 }  // namespace
 
 std::string without_folder(const std::string& path) {
-  const std::string file = data_path(path).file;
-  const std::size_t slash = file.rfind('/');
-  return slash == std::string::npos ? path : path.substr(slash + 1);
+  return path.substr(data_path(path).file.rfind('/') + 1);  // npos + 1 is 0
 }
 
 std::vector<RecordedFile> files_of_record(const PictureRequest& request) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/base/setting_name.h"
 #include "bihive/io/data_path.h"
 #include "bihive/io/packed.h"
@@ -20,11 +21,6 @@ namespace fs = std::filesystem;
 
 // A document that refers to itself, or to a long chain of others, is none.
 constexpr int kMostDocuments = 8;
-
-std::string folder_of(const std::string& path) {
-  const fs::path folder = fs::path(path).parent_path();
-  return folder.empty() ? "." : folder.string();
-}
 
 // A path for a document in this folder.
 std::string seen_from(const std::string& folder, const std::string& path) {

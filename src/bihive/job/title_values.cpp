@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "bihive/base/ascii.h"
 #include "bihive/base/parse_number.h"
 #include "bihive/base/write_file.h"
 #include "bihive/job/failure.h"
@@ -12,20 +13,9 @@
 namespace bihive {
 namespace {
 
-std::string without_space(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
 std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields(1);
-  for (const char c : line)
-    if (c == ',')
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  for (std::string& field : fields) field = without_space(field);
+  std::vector<std::string> fields;
+  for (const std::string_view field : parts_of(line, ',')) fields.emplace_back(trim(field));
   return fields;
 }
 
@@ -49,7 +39,7 @@ TitleValues values_of_frame(const std::string& path, std::int64_t frame) {
   const std::string text = value_or_fail(read_file(path));
   std::string head, row;
   if (!take_line(text, 0, head)) fail({"has no line of names", path, 1, 0, "the first line names the columns"});
-  if (!take_line(text, frame + 1, row) || without_space(row).empty())
+  if (!take_line(text, frame + 1, row) || trim(row).empty())
     fail({"has no row for frame " + std::to_string(frame), path, frame + 2, 0, "each frame has a row, from 0 on"});
   const std::vector<std::string> names = fields_of(head), fields = fields_of(row);
   if (names.size() != fields.size())

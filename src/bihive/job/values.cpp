@@ -8,55 +8,24 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <type_traits>
 
 #include "bihive/base/parse_number.h"
 #include "bihive/bih/tree.h"
 #include "bihive/image/colour_text.h"
+#include "bihive/math/vector_text.h"
 #include "bihive/select/selection.h"
 #include "bihive/settings/picture_settings.h"
 
 namespace bihive {
 namespace {
 
-Error unexpected(const std::string& expected, const std::string& found) {
-  return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
-}
-
-// Parses a number; the whole text must be it.
+// Parses a whole number without a plus sign; the whole text must be it.
 template <class T>
 std::optional<T> whole(std::string_view text) {
-  if constexpr (std::is_same_v<T, double>) {
-    return parse_double(text);  // not every C++ library's from_chars() knows them
-  } else {
-    T value{};
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-  }
-}
-
-// Parses numbers separated by commas; empty if one is not a T.
-template <class T>
-std::vector<T> numbers_of(std::string_view text) {
-  std::vector<T> numbers;
-  for (bool more = true; more;) {
-    const std::size_t comma = text.find(',');
-    const std::optional<T> number = whole<T>(text.substr(0, comma));
-    if (!number) return {};
-    numbers.push_back(*number);
-    more = comma != std::string_view::npos;
-    text.remove_prefix(more ? comma + 1 : text.size());
-  }
-  return numbers;
-}
-
-// Parses three finite numbers separated by commas.
-std::optional<Vec3d> three_numbers(std::string_view text) {
-  const std::vector<double> numbers = numbers_of<double>(text);
-  if (numbers.size() != 3) return std::nullopt;
-  const Vec3d v{numbers[0], numbers[1], numbers[2]};
-  return is_finite(v) ? std::optional(v) : std::nullopt;
+  T value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 // A number, and the inches of the unit after it; 0: none.
@@ -72,7 +41,7 @@ Length length_in(std::string_view text) {
       length.unit_in = inches;
       text.remove_suffix(name.size());
     }
-  length.number = whole<double>(text).value_or(0);
+  length.number = parse_double(text).value_or(0);
   return length;
 }
 
@@ -93,14 +62,13 @@ Result<std::int64_t> limit_from(const std::string& text) {
 
 Result<Vec3d> vector_from(const std::string& text) {
   constexpr double kLargest = 3.4e38;
-  const std::optional<Vec3d> v = three_numbers(text);
-  if (v && std::abs(v->x) <= kLargest && std::abs(v->y) <= kLargest && std::abs(v->z) <= kLargest) return *v;
+  if (const std::optional<Vec3d> v = vector_from_text(text, -kLargest, kLargest)) return *v;
   return unexpected("three numbers X,Y,Z", text);
 }
 
 Result<Turn> turn_from(const std::string& text) {
   constexpr double kMost = 360;
-  const std::vector<double> degrees = numbers_of<double>(text);
+  const std::vector<double> degrees = numbers_from_text(text);
   const bool in_range =
       std::all_of(degrees.begin(), degrees.end(), [](double number) { return std::abs(number) <= kMost; });
   if (in_range && (degrees.size() == 2 || degrees.size() == 3))
@@ -145,7 +113,8 @@ Result<PictureSize> size_of_print(const PrintSize& print, double dots_per_inch) 
 }
 
 Result<Tile> crop_from(const std::string& text) {
-  const std::vector<int> n = numbers_of<int>(text);
+  std::vector<int> n;
+  for (const std::string_view part : parts_of(text, ',')) n.push_back(whole<int>(part).value_or(-1));
   if (n.size() == 4 && n[0] >= 0 && n[1] >= 0 && n[0] < n[2] && n[1] < n[3] && n[2] <= kMostSidePx &&
       n[3] <= kMostSidePx)
     return Tile{n[0], n[1], n[2], n[3]};
@@ -161,7 +130,7 @@ Result<std::int64_t> samples_from(const std::string& text, std::int64_t most) {
 
 Result<Focus> focus_from(const std::string& text) {
   if (text == "auto") return Focus(0.0);
-  const std::optional<double> value = whole<double>(text);
+  const std::optional<double> value = parse_double(text);
   if (value && *value > 0 && *value <= double(std::numeric_limits<float>::max())) return Focus(*value);
   if (!value && check_selection(text)) return Focus(text);
   return unexpected("a number above 0 and up to 3.4e38, \"auto\" or a selection", text);
@@ -169,7 +138,7 @@ Result<Focus> focus_from(const std::string& text) {
 
 Result<LookAt> look_at_from(const std::string& text) {
   if (const Result<Vec3d> point = vector_from(text)) return LookAt(*point);
-  if (!three_numbers(text) && check_selection(text)) return LookAt(text);
+  if (!vector_from_text(text) && check_selection(text)) return LookAt(text);
   return unexpected("three numbers X,Y,Z or a selection", text);
 }
 
@@ -181,8 +150,7 @@ Result<std::int64_t> bits_from(const std::string& text) {
 
 Result<Vec3d> colour_from(const std::string& text, Transfer transfer) {
   if (const std::optional<Vec3d> colour = colour_from_text(text, transfer)) return *colour;
-  const std::optional<Vec3d> v = three_numbers(text);
-  if (v && v->x >= 0 && v->y >= 0 && v->z >= 0 && v->x <= 1 && v->y <= 1 && v->z <= 1) return *v;
+  if (const std::optional<Vec3d> light = vector_from_text(text, 0, 1)) return *light;
   return unexpected("#rrggbb, r,g,b with numbers from 0 to 1, or one of " + std::string(kColourNames), text);
 }
 

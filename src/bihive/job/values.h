@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/base/result.h"
 #include "bihive/image/film.h"
 #include "bihive/image/transfer.h"
@@ -74,7 +75,7 @@ Result<T> choice_from(const std::string& text, const std::vector<std::pair<std::
     if (name == text) return value;
     names += (names.empty() ? "" : ", ") + name;
   }
-  return Error{"expected one of " + names + ", found \"" + text + "\"", "", 0, 0, ""};
+  return unexpected("one of " + names, text);
 }
 
 }  // namespace bihive

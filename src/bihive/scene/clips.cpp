@@ -30,21 +30,13 @@ bool in_range(Vec3d v) {
 // Parses as many numbers as the array has, separated by commas.
 template <std::size_t kCount>
 Result<std::array<double, kCount>> numbers(std::string_view text, const std::string& form) {
+  const std::vector<std::string_view> parts = parts_of(text, ',');
+  if (parts.size() != kCount) return unexpected(std::to_string(kCount) + " numbers as " + form, text);
   std::array<double, kCount> values{};
-  std::string_view rest = text;
   for (std::size_t i = 0; i < kCount; ++i) {
-    const std::size_t comma = rest.find(',');
-    const bool last = i + 1 == kCount;
-    if ((comma == std::string_view::npos) != last)
-      return clip_error("expected " + std::to_string(kCount) + " numbers as " + form + ", found \"" +
-                        std::string(text) + "\"");
-    const std::string_view part = rest.substr(0, comma);
-    const std::optional<double> number = parse_double(part);
-    if (!number || !in_range(*number))
-      return clip_error("expected a number between -3.4e38 and 3.4e38 in " + form + ", found \"" + std::string(part) +
-                        "\"");
+    const std::optional<double> number = parse_double(parts[i]);
+    if (!number || !in_range(*number)) return unexpected("a number between -3.4e38 and 3.4e38 in " + form, parts[i]);
     values[i] = *number;
-    if (!last) rest.remove_prefix(comma + 1);
   }
   return values;
 }
@@ -110,7 +102,7 @@ Result<Clip> clip_from_text(const std::string& text) {
   if (kind == "plane") return plane_from(rest);
   if (kind == "box") return box_from(rest);
   if (kind == "sphere") return sphere_from(rest);
-  return clip_error(std::string("expected ") + kForms + ", found \"" + text + "\"");
+  return unexpected(kForms, text);
 }
 
 Status check_clip(const Clip& clip) {

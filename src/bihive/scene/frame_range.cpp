@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "bihive/base/parse_number.h"
+
 namespace bihive {
 namespace {
 
@@ -22,8 +24,8 @@ std::optional<std::int64_t> whole_number(const std::string& text) {
 }
 
 Error range_error(const std::string& text) {
-  return {"expected frames as A:B:STEP or A:B, or one frame, found \"" + text + "\"", "", 0, 0,
-          "0:500:5 is every fifth of the first 500 frames, :: all"};
+  return unexpected("frames as A:B:STEP or A:B, or one frame", text,
+                    "0:500:5 is every fifth of the first 500 frames, :: all");
 }
 
 }  // namespace

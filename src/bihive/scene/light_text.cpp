@@ -4,6 +4,7 @@
 
 #include "bihive/base/parse_number.h"
 #include "bihive/image/colour_text.h"
+#include "bihive/math/vector_text.h"
 #include "bihive/scene/look_text.h"
 
 namespace bihive {
@@ -19,45 +20,23 @@ std::string ways_to_say() {
   return names + "from:RIGHT,UP,TOWARDS[:COLOUR[:STRENGTH[:DEG]]], at:X,Y,Z[:COLOUR[:STRENGTH[:RADIUS]]]";
 }
 
-Error unexpected(const std::string& expected, std::string_view found) {
-  return {"expected " + expected + ", found \"" + std::string(found) + "\"", "", 0, 0, ""};
-}
-
-std::vector<std::string> split(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    parts.emplace_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 Result<double> number_in(const std::string& text, double most, const std::string& meaning) {
   const std::optional<double> number = parse_double(text);
   if (number && *number >= 0 && *number <= most) return *number;
   return unexpected(meaning, text);
 }
 
-Result<Vec3d> vector_in(const std::string& text) {
-  const std::vector<std::string> parts = split(text, ',');
-  Vec3d vector;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::optional<double> number =
-        parts.size() == 3 ? parse_double(parts[static_cast<std::size_t>(axis)]) : std::nullopt;
-    if (!number || !(*number >= -kFarthest && *number <= kFarthest))
-      return unexpected("three numbers from -1e18 to 1e18 as X,Y,Z", text);
-    vector[axis] = *number;
-  }
-  return vector;
+Result<Vec3d> vector_in(std::string_view text) {
+  if (const std::optional<Vec3d> vector = vector_from_text(text, -kFarthest, kFarthest)) return *vector;
+  return unexpected("three numbers from -1e18 to 1e18 as X,Y,Z", text);
 }
 
 // Field number N, or nothing if the text has fewer fields or the field is empty.
-std::string part(const std::vector<std::string>& parts, std::size_t i) {
-  return i < parts.size() ? parts[i] : std::string();
+std::string part(const std::vector<std::string_view>& parts, std::size_t i) {
+  return std::string(i < parts.size() ? parts[i] : std::string_view());
 }
 
-Result<Vec3d> light_in(const std::vector<std::string>& parts) {
+Result<Vec3d> light_in(const std::vector<std::string_view>& parts) {
   Vec3d light{1, 1, 1};
   if (const std::string colour = part(parts, 2); !colour.empty()) {
     const Result<ColourChoice> choice = colour_choice_from_text(colour);
@@ -81,7 +60,7 @@ Status add_light(const std::string& text, LightChoice& choice) {
     choice.preset = *preset;
     return Done{};
   }
-  const std::vector<std::string> parts = split(text, ':');
+  const std::vector<std::string_view> parts = parts_of(text, ':');
   const bool is_placed = parts[0] == "at";
   if ((!is_placed && parts[0] != "from") || parts.size() < 2 || parts.size() > 5)
     return unexpected("one of " + ways_to_say(), text);

@@ -10,33 +10,16 @@
 #include "bihive/base/near_name.h"
 #include "bihive/base/parse_number.h"
 #include "bihive/image/colour_text.h"
+#include "bihive/math/vector_text.h"
 #include "bihive/scene/clips.h"
 #include "bihive/scene/named_materials.h"
 
 namespace bihive {
 namespace {
 
-Error unexpected(const std::string& expected, const std::string& found) {
-  return {"expected " + expected + ", found \"" + found + "\"", "", 0, 0, ""};
-}
-
 std::optional<double> number_in(std::string_view text, double min, double max) {
   const std::optional<double> number = parse_double(text);
   return number && *number >= min && *number <= max ? number : std::nullopt;
-}
-
-// "r,g,b", each from 0 to 1.
-std::optional<Vec3d> light_from(std::string_view text) {
-  Vec3d light;
-  for (int channel = 0; channel < 3; ++channel) {
-    const std::size_t comma = text.find(',');
-    if ((comma == std::string_view::npos) != (channel == 2)) return std::nullopt;
-    const std::optional<double> number = number_in(text.substr(0, comma), 0, 1);
-    if (!number) return std::nullopt;
-    light[channel] = *number;
-    text.remove_prefix(channel == 2 ? text.size() : comma + 1);
-  }
-  return light;
 }
 
 Result<LookAction> colour_action(const std::string& value) {
@@ -183,7 +166,7 @@ Result<LookAction> look_action_from_text(std::string_view name, const std::strin
 }
 
 Result<ColourChoice> colour_choice_from_text(const std::string& text) {
-  if (const std::optional<Vec3d> light = light_from(text)) return ColourChoice(*light);
+  if (const std::optional<Vec3d> light = vector_from_text(text, 0, 1)) return ColourChoice(*light);
   if (colour_from_text(text, Transfer::srgb)) return ColourChoice(text);
   Error error = unexpected("#rrggbb, r,g,b with numbers from 0 to 1, or one of " + std::string(kColourNames), text);
   if (const std::string near = near_name(text, colour_names()); !near.empty())

@@ -58,17 +58,13 @@ const ForeignFormat* named(std::string_view key) {
   return found == std::end(kKnown) ? nullptr : found;
 }
 
-bool begins(std::string_view text, std::string_view mark) {
-  return text.substr(0, mark.size()) == mark;
-}
-
 // Formats with a mark at their begin, which nothing else has.
 std::string_view by_mark(std::string_view bytes) {
   using namespace std::string_view_literals;
   for (const ForeignFormat& known : kKnown)
     for (std::string_view marks = known.marks; !marks.empty();) {
       const std::size_t end = std::min(marks.find('|'), marks.size());
-      if (begins(bytes, marks.substr(0, end))) return known.key;
+      if (bytes.starts_with(marks.substr(0, end))) return known.key;
       marks.remove_prefix(std::min(end + 1, marks.size()));
     }
   if (bytes.size() < 16) return "";
@@ -78,8 +74,8 @@ std::string_view by_mark(std::string_view bytes) {
     return "mmtf";
   if (bytes.substr(4, 4) == "\0\0\0\x0d"sv && bytes.substr(8, 8).find("VERSION") != std::string_view::npos)
     return "tpr";
-  if (begins(bytes, "\0\0\0"sv) && bytes.substr(0, 24).find("VERSION") != std::string_view::npos) return "tpr";
-  if (bytes.substr(0, 64).find("TNG") != std::string_view::npos && begins(bytes.substr(1), "\0"sv)) return "tng";
+  if (bytes.starts_with("\0\0\0"sv) && bytes.substr(0, 24).find("VERSION") != std::string_view::npos) return "tpr";
+  if (bytes.substr(0, 64).find("TNG") != std::string_view::npos && bytes.substr(1).starts_with("\0"sv)) return "tng";
   return "";
 }
 
@@ -118,13 +114,13 @@ std::string_view by_lines(std::string_view text) {
 
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string_view bare = trim(lines[i]);
-    if (bare == "PRIMCOORD" || bare == "PRIMVEC" || begins(bare, "ANIMSTEPS")) return "xsf";
+    if (bare == "PRIMCOORD" || bare == "PRIMVEC" || bare.starts_with("ANIMSTEPS")) return "xsf";
   }
 
   // CHARMM: titles behind asterisks, then the count.
-  if (begins(line(0), "*")) {
+  if (line(0).starts_with("*")) {
     std::size_t i = 0;
-    while (begins(line(i), "*")) ++i;
+    while (line(i).starts_with("*")) ++i;
     const std::vector<std::string_view> count = fields_of_line(line(i));
     if (!count.empty() && parse_int(count[0])) return "crd";
   }
@@ -146,7 +142,7 @@ std::string_view by_lines(std::string_view text) {
                                         place = fields_of_line(line(3 + cell_lines));
     const bool is_atom = name.size() >= 2 && !parse_double(name[0]) && parse_int(name[1]);
     const bool has_cell = cell_lines == 0 || all_numbers(fields_of_line(line(2)), 3);
-    if (begins(line(2), "timestep ") || (is_atom && has_cell && place.size() == 3 && all_numbers(place, 3)))
+    if (line(2).starts_with("timestep ") || (is_atom && has_cell && place.size() == 3 && all_numbers(place, 3)))
       return "dlpoly";
   }
 
@@ -183,7 +179,7 @@ const ForeignFormat* foreign_before_all(std::string_view bytes) {
   bool is_wide[2] = {first.size() >= 8, first.size() >= 8};
   for (std::size_t i = 0; i < first.size(); ++i)
     for (std::size_t zero = 0; zero < 2; ++zero) is_wide[zero] = is_wide[zero] && (first[i] == '\0') == (i % 2 == zero);
-  if (begins(bytes, "\xff\xfe") || begins(bytes, "\xfe\xff") || is_wide[0] || is_wide[1]) return named("utf16");
+  if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff") || is_wide[0] || is_wide[1]) return named("utf16");
 
   const std::string_view head = bytes.substr(0, 65536);
   if (head.find('\0') != std::string_view::npos) return nullptr;

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "bihive/base/ascii.h"
 #include "bihive/base/check.h"
+#include "bihive/base/path_parts.h"
 #include "bihive/io/frames/raw_frames.h"
 #include "bihive/io/known_formats.h"
 #include "bihive/io/packed/unpack.h"
@@ -53,15 +55,12 @@ const Format& format_named(std::string_view name) {
   return **found;
 }
 
-std::string ending_of(const std::string& name) {
-  std::string lower = lower_case(name);
-  lower.resize(lower.size() - packed_ending(lower).size());
-  const std::size_t dot = lower.find_last_of("./");
-  return dot == std::string::npos || lower[dot] != '.' ? "" : lower.substr(dot);
+std::string unpacked_ending_of(const std::string& name) {
+  return ending_of(name.substr(0, name.size() - packed_ending(lower_case(name)).size()));
 }
 
 bool is_named_so(std::string_view files, const std::string& name) {
-  const std::string ending = ending_of(name), own = lower_case(name.substr(name.find_last_of('/') + 1));
+  const std::string ending = unpacked_ending_of(name), own = lower_case(name_in_folder(name));
   TextScanner scanner(files, "");
   scanner.next_line();
   for (std::string_view one; scanner.next_field(one);)
@@ -71,7 +70,7 @@ bool is_named_so(std::string_view files, const std::string& name) {
 
 const Format* format_by_name(const std::string& name) {
   // An ending before how a name begins. Data sets may be those of another program: content alone shows them.
-  for (const std::string& asked : {ending_of(name), name})
+  for (const std::string& asked : {unpacked_ending_of(name), name})
     for (const Format* format : kFormats)
       if (!format->has(Format::kDataSets) && is_named_so(format->files, asked)) return format;
   return nullptr;

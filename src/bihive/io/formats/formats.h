@@ -31,7 +31,7 @@ Result<RawSpheres> read_bytes(const Format& format, std::string_view bytes, cons
 std::string known_formats();
 
 /// The ending of a file's name, in lower case, before .gz and the like: ".pdb"; empty if it has none.
-std::string ending_of(const std::string& name);
+std::string unpacked_ending_of(const std::string& name);
 /// Whether a file's name is one of Format::files.
 bool is_named_so(std::string_view files, const std::string& name);
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "bihive/base/fnv.h"
 #include "bihive/base/memory.h"
 #include "bihive/io/packed/byte_reader.h"
 
@@ -19,13 +20,6 @@ constexpr std::string_view kIndexMark = "bihive frames 3\n";
 constexpr std::string_view kMarkOfAnyVersion = kIndexMark.substr(0, kIndexMark.size() - 2);
 constexpr std::size_t kSumBytes = 8;
 constexpr std::size_t kPlaceBytes = 24;
-
-// FNV-1a.
-std::uint64_t sum_of(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325;
-  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return sum;
-}
 
 void put(std::string& bytes, std::uint64_t number) {
   for (int k = 0; k < 8; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xff);
@@ -67,12 +61,12 @@ std::string kept_index_path(const std::string& path) {
 }
 
 Result<std::optional<std::string>> read_kept_index(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-  if (descriptor < 0 && errno == ENOENT) return std::optional<std::string>();
-  if (descriptor < 0) return Error{errno == ELOOP ? "is a link" : std::strerror(errno), path, 0, 0, ""};
+  Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
+  if (!descriptor && errno == ENOENT) return std::optional<std::string>();
+  if (!descriptor) return Error{errno == ELOOP ? "is a link" : std::strerror(errno), path, 0, 0, ""};
   struct stat facts = {};
-  const bool known = fstat(descriptor, &facts) == 0;
-  const RandomFile file = RandomFile::of_descriptor(descriptor, path);
+  const bool known = fstat(descriptor.get(), &facts) == 0;
+  const RandomFile file = RandomFile::of_descriptor(std::move(descriptor), path);
   if (!known || !S_ISREG(facts.st_mode)) return Error{"is no file", path, 0, 0, ""};
   if (facts.st_uid != geteuid() && facts.st_uid != 0) return Error{"belongs to another user", path, 0, 0, ""};
   if ((facts.st_mode & S_IWOTH) != 0) return Error{"may be written by everybody", path, 0, 0, ""};
@@ -89,7 +83,7 @@ std::string encode_index(const FrameIndex& index, const IndexedFile& file) {
   for (const std::int64_t number : {index.lines, std::int64_t{index.text_behind}}) put(bytes, number);
   for (const auto* places : {&index.frames, &index.assembly_lines, &index.cell_lines, &index.bond_lines})
     put(bytes, *places);
-  put(bytes, sum_of(bytes));
+  put(bytes, fnv1a(bytes));
   return bytes;
 }
 
@@ -103,7 +97,7 @@ std::optional<FrameIndex> decode_index(std::string_view bytes, const IndexedFile
   const std::string_view content = bytes.substr(0, bytes.size() - kSumBytes);
   std::uint64_t sum = 0;
   ByteReader(bytes.substr(content.size()), ByteOrder::little).take(sum);
-  if (sum != sum_of(content)) return std::nullopt;
+  if (sum != fnv1a(content)) return std::nullopt;
 
   ByteReader reader(content.substr(kIndexMark.size()), ByteOrder::little);
   for (const std::int64_t expected : head_of(file)) {

@@ -33,10 +33,10 @@ Error unreadable(const std::string& path, int code) {
 Result<RandomFile> RandomFile::open(const std::string& path) {
   RandomFile file;
   file.path_ = path;
-  file.file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file.file_ < 0) return unreadable(path, errno);
+  file.file_ = Descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.file_) return unreadable(path, errno);
   struct stat facts = {};
-  if (fstat(file.file_, &facts) != 0) return unreadable(path, errno);
+  if (fstat(file.file_.get(), &facts) != 0) return unreadable(path, errno);
   if (!S_ISREG(facts.st_mode))
     return Error{"this is no file whose frames can be read in any order", path, 0, 0, "write it to a file first"};
   file.size_ = facts.st_size;
@@ -53,12 +53,12 @@ RandomFile RandomFile::of_bytes(std::string_view bytes, const std::string& name)
   return file;
 }
 
-RandomFile RandomFile::of_descriptor(int file, const std::string& name) {
+RandomFile RandomFile::of_descriptor(Descriptor file, const std::string& name) {
   RandomFile made;
   made.path_ = name;
-  made.file_ = file;
+  made.file_ = std::move(file);
   struct stat facts = {};
-  if (fstat(file, &facts) == 0) {
+  if (fstat(made.file_.get(), &facts) == 0) {
     made.size_ = facts.st_size;
     made.stamp_ = stamp_of(facts);
   }
@@ -72,29 +72,16 @@ RandomFile RandomFile::of_owned(std::string bytes, const std::string& name) {
   return file;
 }
 
-RandomFile::~RandomFile() {
-  if (file_ >= 0) close(file_);
-}
-
-RandomFile::RandomFile(RandomFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      file_(std::exchange(other.file_, -1)),
-      owned_(std::move(other.owned_)),
-      bytes_(other.bytes_),
-      size_(other.size_),
-      stamp_(other.stamp_),
-      has_path_(other.has_path_) {}
-
 bool RandomFile::changed() const {
   struct stat facts = {};
-  if (file_ < 0 || fstat(file_, &facts) != 0) return false;
+  if (!file_ || fstat(file_.get(), &facts) != 0) return false;
   const FileStamp now = stamp_of(facts);
   return facts.st_size < size_ ||
          (facts.st_size == size_ && (now.written_s != stamp_.written_s || now.written_ns != stamp_.written_ns));
 }
 
-int RandomFile::another_descriptor() const {
-  return file_ < 0 ? -1 : fcntl(file_, F_DUPFD_CLOEXEC, 0);
+Descriptor RandomFile::another_descriptor() const {
+  return Descriptor(file_ ? fcntl(file_.get(), F_DUPFD_CLOEXEC, 0) : -1);
 }
 
 Result<std::string> RandomFile::read(std::int64_t place, std::int64_t count) const {
@@ -120,13 +107,14 @@ Error RandomFile::ends_early() const {
 Status RandomFile::read_into(std::int64_t place, std::int64_t count, char* to) const {
   if (Status status = check_range(place, count); !status) return status;
   const auto wanted = static_cast<std::size_t>(count);
-  if (file_ < 0) {
+  if (!file_) {
     bytes_.copy(to, wanted, static_cast<std::size_t>(place));
     return Done{};
   }
   for (std::size_t have = 0; have < wanted;) {
     stop_if_cancelled();
-    const ssize_t n = pread(file_, to + have, std::min(wanted - have, kMostAtOnce), place + static_cast<off_t>(have));
+    const ssize_t n =
+        pread(file_.get(), to + have, std::min(wanted - have, kMostAtOnce), place + static_cast<off_t>(have));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return unreadable(path_, errno);
     if (n == 0) return ends_early();

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "bihive/base/open_file.h"
 #include "bihive/base/result.h"
 
 namespace bihive {
@@ -24,15 +25,11 @@ class RandomFile {
   static Result<RandomFile> open(const std::string& path);
   /// Bytes that must outlive it; `name` is for messages.
   static RandomFile of_bytes(std::string_view bytes, const std::string& name);
-  /// An open file, which it closes at the end.
-  static RandomFile of_descriptor(int file, const std::string& name);
+  /// An open file.
+  static RandomFile of_descriptor(Descriptor file, const std::string& name);
   /// Bytes of its own.
   static RandomFile of_owned(std::string bytes, const std::string& name);
-  ~RandomFile();
-  RandomFile(RandomFile&& other) noexcept;
-  RandomFile(const RandomFile&) = delete;
-  RandomFile& operator=(RandomFile&&) = delete;
-  RandomFile& operator=(const RandomFile&) = delete;
+  RandomFile(RandomFile&& other) noexcept = default;
 
   const std::string& path() const { return path_; }
   /// Bytes when it was opened.
@@ -44,8 +41,8 @@ class RandomFile {
   /// Whether it is a file on the disk that became shorter or was written to since it was opened. One that only grew
   /// has the bytes that it had, as far as can be told from outside.
   bool changed() const;
-  /// A new descriptor of the same file, which the caller closes; below 0: the bytes are in memory.
-  int another_descriptor() const;
+  /// A new descriptor of the same file; none: the bytes are in memory.
+  Descriptor another_descriptor() const;
   /// `count` bytes from `place` on. Errors: the file ends before, it cannot be read, or there is no memory for them.
   Result<std::string> read(std::int64_t place, std::int64_t count) const;
   /// The same into memory of the caller.
@@ -57,7 +54,7 @@ class RandomFile {
   Error ends_early() const;
 
   std::string path_;
-  int file_ = -1;  // below 0: the bytes
+  Descriptor file_;  // none: the bytes
   std::unique_ptr<const std::string> owned_;
   std::string_view bytes_;
   std::int64_t size_ = 0;

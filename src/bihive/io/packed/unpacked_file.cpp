@@ -47,23 +47,18 @@ PieceSource pieces_of(const RandomFile& file, std::string& piece) {
 class GrowingBytes {
  public:
   explicit GrowingBytes(std::string name) : name_(std::move(name)) {}
-  ~GrowingBytes() {
-    if (file_ >= 0) close(file_);
-  }
-  GrowingBytes(const GrowingBytes&) = delete;
-  GrowingBytes& operator=(const GrowingBytes&) = delete;
 
   Status append(std::string_view piece) {
-    if (file_ < 0 && static_cast<double>(kept_.size() + piece.size()) > most_in_memory_)
+    if (!file_ && static_cast<double>(kept_.size() + piece.size()) > most_in_memory_)
       if (Status status = go_to_disk(); !status) return status;
-    if (file_ >= 0) return write_all(piece);
+    if (file_) return write_all(piece);
     kept_ += piece;
     return Done{};
   }
 
   Result<RandomFile> finish() {
-    if (file_ < 0) return RandomFile::of_owned(std::move(kept_), name_);
-    return RandomFile::of_descriptor(std::exchange(file_, -1), name_);
+    if (!file_) return RandomFile::of_owned(std::move(kept_), name_);
+    return RandomFile::of_descriptor(std::move(file_), name_);
   }
 
  private:
@@ -77,10 +72,10 @@ class GrowingBytes {
     const char* const chosen = std::getenv("TMPDIR");
     folder_ = chosen != nullptr && *chosen != '\0' ? chosen : access("/var/tmp", W_OK) == 0 ? "/var/tmp" : "/tmp";
     std::string path = folder_ + "/bihive-XXXXXX";
-    file_ = mkstemp(path.data());
-    if (file_ < 0) return no_room(std::strerror(errno));
+    file_ = Descriptor(mkstemp(path.data()));
+    if (!file_) return no_room(std::strerror(errno));
     unlink(path.c_str());
-    fcntl(file_, F_SETFD, FD_CLOEXEC);
+    fcntl(file_.get(), F_SETFD, FD_CLOEXEC);
     const std::string kept = std::exchange(kept_, std::string());
     return write_all(kept);
   }
@@ -89,7 +84,7 @@ class GrowingBytes {
   Status check_room() const {
     constexpr double kLeastShare = 0.05;
     struct statvfs facts = {};
-    if (fstatvfs(file_, &facts) != 0 || facts.f_blocks == 0) return Done{};
+    if (fstatvfs(file_.get(), &facts) != 0 || facts.f_blocks == 0) return Done{};
     if (static_cast<double>(facts.f_bavail) >= kLeastShare * static_cast<double>(facts.f_blocks)) return Done{};
     return no_room("less than a twentieth of the disk would be left");
   }
@@ -98,19 +93,14 @@ class GrowingBytes {
     constexpr std::int64_t kCheckEvery = std::int64_t{1} << 26;
     if (written_ / kCheckEvery != (written_ + static_cast<std::int64_t>(piece.size())) / kCheckEvery)
       if (Status status = check_room(); !status) return status;
-    while (!piece.empty()) {
-      const ssize_t n = write(file_, piece.data(), piece.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return no_room(std::strerror(errno));
-      piece.remove_prefix(static_cast<std::size_t>(n));
-      written_ += n;
-    }
+    if (const int code = write_whole(file_.get(), piece); code != 0) return no_room(std::strerror(code));
+    written_ += static_cast<std::int64_t>(piece.size());
     return Done{};
   }
 
   std::string name_, kept_, folder_;
   const double most_in_memory_ = std::min(kMostInMemory, kMostOfMemory* memory_bytes());
-  int file_ = -1;
+  Descriptor file_;
   std::int64_t written_ = 0;
 };
 

@@ -172,12 +172,6 @@ bool TextScanner::next_filled_line() {
   return false;
 }
 
-bool TextScanner::skip_lines(std::int64_t count) {
-  for (; count > 0; --count)
-    if (!next_line()) return false;
-  return true;
-}
-
 std::int64_t TextScanner::lines_left() const {
   if (at_end()) return 0;
   BIHIVE_CHECK(part_ == nullptr);
@@ -258,19 +252,6 @@ std::string printable(std::string_view text) {
 std::string quote(std::string_view text) {
   constexpr std::size_t kReadable = 40;
   return "'" + printable(text.substr(0, kReadable)) + (text.size() > kReadable ? "...'" : "'");
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 }  // namespace bihive

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "bihive/base/ascii.h"
 #include "bihive/base/result.h"
 
 namespace bihive {
@@ -45,8 +46,6 @@ class TextScanner {
   bool next_line();
   /// Goes to the next line that has more than blanks (and a comment) in it.
   bool next_filled_line();
-  /// Goes to the next line without reading the present one: the fast way past `count` lines. False at the end.
-  bool skip_lines(std::int64_t count);
 
   /// The whole lines after the current one: about this many bytes, at least one line, none at the end. The view
   /// lives until the scanner goes on.
@@ -107,21 +106,10 @@ class TextScanner {
   std::string unquoted_;
 };
 
-/// Blank, tab, and what else stands between fields of a line.
-inline bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
 /// The text with a question mark in place of every character and byte that a terminal should not get (masked()).
 std::string printable(std::string_view text);
 
 /// The printable text in quotes, shortened for messages.
 std::string quote(std::string_view text);
-
-/// ASCII lower case.
-std::string lower_case(std::string_view text);
-
-/// The text without blanks, tabs and carriage returns at both ends.
-std::string_view trim(std::string_view text);
 
 }  // namespace bihive

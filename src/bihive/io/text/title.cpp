@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bihive/base/ascii.h"
 #include "bihive/base/readable.h"
 
 namespace bihive {
@@ -10,14 +11,13 @@ namespace {
 constexpr std::size_t kLongestTitle = 300, kLongestEntryId = 40;
 
 // Beyond ASCII everything counts.
-bool is_letter_or_digit(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-         static_cast<unsigned char>(c) >= 0x80;
+bool is_of_a_name(char c) {
+  return is_letter_or_digit(c) || static_cast<unsigned char>(c) >= 0x80;
 }
 
 std::string named(std::string_view text, std::size_t most_bytes) {
   std::string line = one_line(text, most_bytes);
-  return std::any_of(line.begin(), line.end(), is_letter_or_digit) ? line : std::string();
+  return std::any_of(line.begin(), line.end(), is_of_a_name) ? line : std::string();
 }
 
 }  // namespace

@@ -26,13 +26,9 @@ constexpr std::size_t kHiddenDigits = 16;
 constexpr int kAttempts = 20;
 constexpr mode_t kFolderOfOwner = 0700;
 
-bool begins(std::string_view name, std::string_view with) {
-  return name.substr(0, with.size()) == with;
-}
-
 bool is_hidden_name(std::string_view name) {
-  return name.size() == kHiddenBegin.size() + kHiddenDigits + kHiddenEnd.size() && begins(name, kHiddenBegin) &&
-         name.substr(name.size() - kHiddenEnd.size()) == kHiddenEnd;
+  return name.size() == kHiddenBegin.size() + kHiddenDigits + kHiddenEnd.size() && name.starts_with(kHiddenBegin) &&
+         name.ends_with(kHiddenEnd);
 }
 
 // Older versions used the first two of these.
@@ -40,7 +36,7 @@ bool is_own_name(const std::string& name) {
   for (const char* const own : {"ffmpeg.log", "segments.txt", kLockOfFilm})
     if (name == own) return true;
   for (const char* const with : {"film.", "segment-", "unfinished", "picture-", ".bihive-"})
-    if (begins(name, with)) return true;
+    if (name.starts_with(with)) return true;
   return false;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "bihive/base/path_parts.h"
 #include "bihive/base/write_file.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/film/system_failure.h"
@@ -25,7 +26,7 @@ constexpr int kOpenFolder = O_RDONLY | O_DIRECTORY | O_CLOEXEC;
 // The owner and mode of a new file here: a file system without users gives all files to one user, and one without
 // permissions invents them.
 std::optional<struct stat> facts_of_new_file(int folder) {
-  const std::string name = ".bihive-" + random_digits() + ".part";
+  const std::string name = random_part_name();
   const Descriptor file(openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnerOnly));
   if (!file) return std::nullopt;
   struct stat info {};
@@ -36,45 +37,6 @@ std::optional<struct stat> facts_of_new_file(int folder) {
 }
 
 }  // namespace
-
-std::string folder_around(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
-
-std::string last_name(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);
-}
-
-std::string random_digits() {
-  unsigned long long bits = 0;
-  if (getentropy(&bits, sizeof(bits)) != 0) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    bits =
-        static_cast<unsigned long long>(now.tv_nsec) * 0x9e3779b97f4a7c15u ^ static_cast<unsigned long long>(getpid());
-  }
-  char digits[17];
-  std::snprintf(digits, sizeof(digits), "%016llx", bits);
-  return digits;
-}
-
-int write_whole(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) return errno;
-    if (written == 0) return EIO;
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
-
-int flush_to_disk(int file) {
-  while (fsync(file) != 0)
-    if (errno != EINTR) return errno == EINVAL ? 0 : errno;
-  return 0;
-}
 
 bool OwnFolder::is_ours(const struct stat& info) const {
   if (info.st_uid == geteuid()) return true;
@@ -120,7 +82,7 @@ std::optional<OwnFolder> OwnFolder::open_shared(const std::string& path) {
   }
   struct stat around {};
   if (S_ISLNK(link.st_mode) && link.st_uid != geteuid() &&
-      (stat(folder_around(path).c_str(), &around) != 0 || link.st_uid != around.st_uid))
+      (stat(folder_of(path).c_str(), &around) != 0 || link.st_uid != around.st_uid))
     refuse("is a symbolic link that belongs to another user", path, "write to another folder");
   Descriptor folder(::open(path.c_str(), kOpenFolder));
   if (!folder) fail_of_system("cannot be read", path, errno);
@@ -203,7 +165,7 @@ bool OwnFolder::place_new(const std::string& name, std::string_view bytes, mode_
     if (errno == EEXIST) return false;
   }
 #endif
-  const std::string aside = ".bihive-" + random_digits() + ".part";
+  const std::string aside = random_part_name();
   write_new(aside, bytes, mode);
   int code = 0;
   if (linkat(folder_.get(), aside.c_str(), folder_.get(), name.c_str(), 0) != 0) code = errno;

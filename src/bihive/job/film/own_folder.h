@@ -11,17 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "bihive/job/film/descriptor.h"
+#include "bihive/base/open_file.h"
 
 namespace bihive {
 
 /// Permissions of new files, before the user's mask: those of an output, and of what bihive itself reads again.
 inline constexpr mode_t kOfOutputs = 0666, kOwnerWrites = 0644;
-
-/// The folder of a path: "." for a name alone.
-std::string folder_around(const std::string& path);
-/// The name of a path in its folder.
-std::string last_name(const std::string& path);
 
 /// All functions fail with kBadInput.
 class OwnFolder {
@@ -69,14 +64,5 @@ class OwnFolder {
   std::string path_;
   bool is_private_ = false;
 };
-
-/// 16 unguessable hexadecimal digits.
-std::string random_digits();
-
-/// Writes everything. 0, or the errno of the failure.
-int write_whole(int file, std::string_view bytes);
-
-/// Flushes a file to the disk. 0, or the errno of the failure.
-int flush_to_disk(int file);
 
 }  // namespace bihive

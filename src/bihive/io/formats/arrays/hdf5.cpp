@@ -1,6 +1,4 @@
 // HDF5 [HDF5], by its library.
-#include <unistd.h>
-
 #include <algorithm>
 #include <functional>
 #include <new>
@@ -50,7 +48,6 @@ class Hdf5File : public ArrayFile {
     const Hdf5Turn turn(h_);
     if (id_ >= 0) h_.H5Fclose(id_);
     if (links_ >= 0) h_.H5Pclose(links_);
-    if (descriptor_ >= 0) close(descriptor_);
   }
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -69,7 +66,7 @@ class Hdf5File : public ArrayFile {
     if (image->empty()) {
       // The library opens files by name. This name is that of the file which is open here.
       descriptor_ = file_.another_descriptor();
-      id_ = h_.H5Fopen(("/proc/self/fd/" + std::to_string(descriptor_)).c_str(), kHdf5ReadOnly, kHdf5Default);
+      id_ = h_.H5Fopen(("/proc/self/fd/" + std::to_string(descriptor_.get())).c_str(), kHdf5ReadOnly, kHdf5Default);
     } else {
       // Bytes without a name: those of a packed file, or of the standard input.
       constexpr std::size_t kGrowth = std::size_t{1} << 20;
@@ -256,7 +253,7 @@ class Hdf5File : public ArrayFile {
 
   const Hdf5Functions& h_;
   RandomFile file_;
-  int descriptor_ = -1;
+  Descriptor descriptor_;
   hid_t id_ = -1, links_ = -1;
   std::string linked_file_;  // the file of the link that was met last
   std::vector<ArrayFacts> arrays_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "bihive/base/ascii.h"
 #include "bihive/io/elements.h"
 
 namespace bihive {
@@ -10,12 +11,6 @@ namespace {
 
 bool is_capital(char c) {
   return c >= 'A' && c <= 'Z';
-}
-bool is_letter(char c) {
-  return is_capital(c) || (c >= 'a' && c <= 'z');
-}
-bool is_digit_of_charge(char c) {
-  return c >= '0' && c <= '9';
 }
 
 std::string_view first_letters(std::string_view text) {
@@ -35,7 +30,7 @@ int element_of_type_symbol(std::string_view symbol) {
   std::string_view charge = symbol.substr(letters.size());
   const bool has_sign = !charge.empty() && (charge.back() == '+' || charge.back() == '-');
   if (has_sign) charge.remove_suffix(1);
-  const bool is_charge = std::all_of(charge.begin(), charge.end(), is_digit_of_charge) && (has_sign || charge.empty());
+  const bool is_charge = std::all_of(charge.begin(), charge.end(), is_digit) && (has_sign || charge.empty());
   return is_charge ? atomic_number(letters) : 0;
 }
 

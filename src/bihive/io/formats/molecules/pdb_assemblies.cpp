@@ -15,10 +15,6 @@ constexpr std::string_view kApply = "APPLY THE FOLLOWING TO CHAINS:";
 constexpr std::string_view kAndChains = "AND CHAINS:";
 constexpr std::string_view kMatrixRow = "BIOMT";
 
-bool begins_with(std::string_view text, std::string_view begin) {
-  return text.substr(0, begin.size()) == begin;
-}
-
 // The first word, which leaves the text.
 std::string_view take_word(std::string_view& text) {
   text = trim(text);
@@ -32,26 +28,22 @@ std::string_view take_word(std::string_view& text) {
 void PdbAssemblies::add_line(std::string_view line) {
   constexpr std::size_t kTextColumn = 11;  // behind "REMARK 350 "
   const std::string_view text = line.size() > kTextColumn ? trim(line.substr(kTextColumn)) : std::string_view();
-  if (begins_with(text, kBiomolecule)) {
+  if (text.starts_with(kBiomolecule)) {
     end_part();
     part_.assembly = printable(trim(text.substr(kBiomolecule.size())));
-  } else if (begins_with(text, kApply)) {
+  } else if (text.starts_with(kApply)) {
     end_part();
     add_chains(text.substr(kApply.size()));
-  } else if (begins_with(text, kAndChains)) {
+  } else if (text.starts_with(kAndChains)) {
     add_chains(text.substr(kAndChains.size()));
-  } else if (begins_with(text, kMatrixRow)) {
+  } else if (text.starts_with(kMatrixRow)) {
     add_matrix_row(text.substr(kMatrixRow.size()));
   }
 }
 
 void PdbAssemblies::add_chains(std::string_view list) {
-  while (!list.empty()) {
-    const std::size_t comma = list.find(',');
-    if (const std::string_view chain = trim(list.substr(0, comma)); !chain.empty())
-      part_.chains.push_back(printable(chain));
-    list = comma == std::string_view::npos ? std::string_view() : list.substr(comma + 1);
-  }
+  for (const std::string_view around : parts_of(list, ','))
+    if (const std::string_view chain = trim(around); !chain.empty()) part_.chains.push_back(printable(chain));
 }
 
 // "1   2  1.000000  0.000000  0.000000        0.00000": row, number of the operator, four numbers.

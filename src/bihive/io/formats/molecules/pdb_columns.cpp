@@ -1,5 +1,6 @@
 #include "bihive/io/formats/molecules/pdb_columns.h"
 
+#include "bihive/base/ascii.h"
 #include "bihive/io/formats/molecules/pdb_elements.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -15,14 +16,14 @@ bool has_at(std::string_view line, std::size_t column, char c) {
   return column <= line.size() && line[column - 1] == c;
 }
 
-bool is_digit(std::string_view line, std::size_t column) {
-  return column <= line.size() && line[column - 1] >= '0' && line[column - 1] <= '9';
+bool has_digit_at(std::string_view line, std::size_t column) {
+  return column <= line.size() && is_digit(line[column - 1]);
 }
 
 // Digits behind a number that fills its columns.
 std::size_t digits_more(std::string_view line, std::size_t first, std::size_t width) {
   std::size_t digits = 0;
-  while (digits < width + kMostDigitsMore && is_digit(line, first + digits)) ++digits;
+  while (digits < width + kMostDigitsMore && has_digit_at(line, first + digits)) ++digits;
   return digits > width ? digits - width : 0;
 }
 
@@ -58,7 +59,8 @@ bool ResidueNames::has_four_letters(std::string_view columns) {
 
 ColumnShift column_shift(std::string_view line) {
   // Nearly all lines end here.
-  if (!is_digit(line, kSerialColumn + kSerialColumnWidth) && !is_digit(line, kResidue + kResidueWidth)) return {};
+  if (!has_digit_at(line, kSerialColumn + kSerialColumnWidth) && !has_digit_at(line, kResidue + kResidueWidth))
+    return {};
   ColumnShift shift;
   shift.serial = digits_more(line, kSerialColumn, kSerialColumnWidth);
   shift.residue = digits_more(line, kResidue + shift.serial, kResidueWidth);

@@ -4,6 +4,7 @@
 #include <gemmi/resinfo.hpp>
 #include <iterator>
 
+#include "bihive/base/ascii.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -11,19 +12,6 @@ namespace bihive {
 namespace {
 
 constexpr int kHydrogen = 1, kCarbon = 6, kNitrogen = 7, kOxygen = 8, kPhosphorus = 15, kSulfur = 16, kSelenium = 34;
-
-bool letter(char c) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-bool digit(char c) {
-  return c >= '0' && c <= '9';
-}
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return result;
-}
 
 template <class List>
 bool is_in(const List& sorted, std::string_view text) {
@@ -54,8 +42,8 @@ constexpr IonName kIonNames[] = {{"BAR", 56}, {"BRO", 35}, {"CAL", 20}, {"CES", 
 // A name without charge: "NA+", "Ca2+", "FE2", "3CO" become NA, CA, FE, CO.
 std::string without_charge(std::string_view name) {
   std::string bare;
-  for (const char c : upper(name))
-    if (letter(c)) bare += c;
+  for (const char c : upper_case(name))
+    if (is_letter(c)) bare += c;
   return bare;
 }
 
@@ -80,9 +68,9 @@ int ion_element(std::string_view residue, std::string_view name) {
 
 // The name from its first letter on, in upper case.
 std::string from_first_letter(std::string_view name) {
-  std::string bare = upper(trim(name));
+  std::string bare = upper_case(trim(name));
   bare.erase(0, std::min(bare.size(),
-                         static_cast<std::size_t>(std::find_if(bare.begin(), bare.end(), letter) - bare.begin())));
+                         static_cast<std::size_t>(std::find_if(bare.begin(), bare.end(), is_letter) - bare.begin())));
   return bare;
 }
 
@@ -91,8 +79,8 @@ std::string from_first_letter(std::string_view name) {
 // counts. A symbol behind two blanks stands flush right.
 int element_by_columns(const char (&name)[4]) {
   if (name[0] == ' ' && name[1] == ' ') return atomic_number(trim({name, 4}));
-  if (name[0] == ' ' || digit(name[0])) return atomic_number({&name[1], 1});
-  const int of_two = letter(name[1]) ? atomic_number({name, 2}) : 0;
+  if (name[0] == ' ' || is_digit(name[0])) return atomic_number({&name[1], 1});
+  const int of_two = is_letter(name[1]) ? atomic_number({name, 2}) : 0;
   return of_two ? of_two : atomic_number({name, 1});
 }
 
@@ -101,7 +89,7 @@ int element_by_columns(const char (&name)[4]) {
 int element_by_likelihood(std::string_view name, bool alone) {
   const std::string bare = from_first_letter(name);
   if (bare.empty()) return 0;
-  const int of_two = bare.size() > 1 && letter(bare[1]) ? atomic_number(std::string_view(bare).substr(0, 2)) : 0;
+  const int of_two = bare.size() > 1 && is_letter(bare[1]) ? atomic_number(std::string_view(bare).substr(0, 2)) : 0;
   const int of_one = atomic_number(std::string_view(bare).substr(0, 1));
   if (alone && of_two && trim(name).size() < 4) return of_two;
   static constexpr std::string_view two[] = {"BR", "CL", "FE", "PT", "SE", "SI"};
@@ -114,7 +102,7 @@ int element_by_likelihood(std::string_view name, bool alone) {
 }  // namespace
 
 PdbElements::Class PdbElements::class_of(std::string_view residue) {
-  std::string name = upper(residue);
+  std::string name = upper_case(residue);
   if (name == "UNK") return Class::unknown;  // any molecule, in many programs
   if (name == "W" || name == "WF" || name == "PW") return Class::bead;
   if (is_in(kWaterNames, name)) return Class::water;
@@ -158,8 +146,8 @@ std::optional<int> PdbElements::element_in(Class residue_class, std::string_view
     return massless.find(first) == std::string_view::npos ? std::nullopt : std::optional<int>(0);
   if (residue_class == Class::protein) {
     // Coarse grains of Martini; sulfur is in cysteine and methionine alone.
-    if (bare == "BB" || (bare.size() == 3 && bare.substr(0, 2) == "SC" && digit(bare[2]))) return 0;
-    const std::string of = upper(residue);
+    if (bare == "BB" || (bare.size() == 3 && bare.substr(0, 2) == "SC" && is_digit(bare[2]))) return 0;
+    const std::string of = upper_case(residue);
     const bool selenium = of == "SEC" || of == "MSE";
     const bool sulfur = of.find("CY") != std::string::npos || of.find("MET") != std::string::npos;
     if (first == 'S' && selenium) return kSelenium;
@@ -192,11 +180,11 @@ void PdbElements::count_evidence(const ElementClues& clues, std::optional<int> e
   if (bare.empty()) return;
   const bool one_letter_symbol =
       element ? atomic_number(std::string_view(bare).substr(0, 1)) == *element && *element != 0
-              : atomic_number(std::string_view(bare).substr(0, 1)) != 0 && (bare.size() == 1 || digit(bare[1]));
+              : atomic_number(std::string_view(bare).substr(0, 1)) != 0 && (bare.size() == 1 || is_digit(bare[1]));
   if (!one_letter_symbol) return;
-  if (clues.name[0] == ' ' && letter(clues.name[1]))
+  if (clues.name[0] == ' ' && is_letter(clues.name[1]))
     ++in_columns_;
-  else if (letter(clues.name[0]))
+  else if (is_letter(clues.name[0]))
     ++flush_left_;
 }
 
@@ -248,7 +236,7 @@ void PdbElements::take(RawSpheres& spheres, const std::string& file) {
   for (const Undecided& atom : undecided_) {
     // A name of four characters begins in column 13 anyway.
     const bool alone = residue_sizes_[atom.residue] == 1;
-    const bool place_counts = columns_count && (atom.name[3] == ' ' || !letter(atom.name[0]));
+    const bool place_counts = columns_count && (atom.name[3] == ' ' || !is_letter(atom.name[0]));
     const int element = place_counts ? element_by_columns(atom.name) : element_by_likelihood({atom.name, 4}, alone);
     elements_[atom.index] = static_cast<std::uint8_t>(element);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bihive/base/ascii.h"
 #include "bihive/io/formats/molecules/pdb_columns.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/io/text/title.h"
@@ -11,13 +12,6 @@ namespace {
 
 // More than a title has room for.
 constexpr std::size_t kMostLines = 16;
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter_or_digit(char c) {
-  return is_digit(c) || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
 
 bool is_entry_id(std::string_view text) {
   return text.size() == 4 && is_digit(text[0]) && std::all_of(text.begin(), text.end(), is_letter_or_digit);
