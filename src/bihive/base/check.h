@@ -1,6 +1,6 @@
 // Programmer's errors: a failed check prints both values and the source line, then aborts.
 //
-// Bad input is never a CHECK: it is a returned Error (base/result.h). DCHECK vanishes when NDEBUG is defined.
+// Bad input is never a CHECK: it is a returned Error (base/result.h).
 #pragma once
 
 #include <sstream>
@@ -36,12 +36,5 @@ template <class A, class B>
       ::bihive::detail::check_failed(BIHIVE_FILE_NAME_, __LINE__, #a " " #op " " #b, check_a_, check_b_); \
   } while (false)
 #define BIHIVE_CHECK_EQ(a, b) BIHIVE_CHECK_OP_(a, ==, b)
-#define BIHIVE_CHECK_LT(a, b) BIHIVE_CHECK_OP_(a, <, b)
 #define BIHIVE_CHECK_LE(a, b) BIHIVE_CHECK_OP_(a, <=, b)
 #define BIHIVE_CHECK_GE(a, b) BIHIVE_CHECK_OP_(a, >=, b)
-
-#ifdef NDEBUG
-#define BIHIVE_DCHECK(condition) void(0)
-#else
-#define BIHIVE_DCHECK(condition) BIHIVE_CHECK(condition)
-#endif

@@ -12,8 +12,8 @@
 
 namespace bihive {
 
-/// The atoms of a file that begins as a dump, no column of which needs all rows (io/sphere_table.h), and that is as
-/// large as one frame alone makes it, with ids in order. Nothing: chunks of it cannot be read.
+/// The atoms of a file that begins as a dump, no column of which needs all rows (io/text/sphere_table.h), and that is
+/// as large as one frame alone makes it, with ids in order. Nothing: chunks of it cannot be read.
 std::optional<std::int64_t> atoms_in_chunks(const RandomFile& file);
 
 /// The lines before the atoms, around the one that states their number.

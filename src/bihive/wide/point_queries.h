@@ -1,7 +1,7 @@
 // Points against the wide tree: the nearest spheres, and the spheres that contain a point or overlap a ball.
 //
 // The distance between a point and a sphere is one fixed number (geometry/sphere_distance.h), computed in the tree's
-// stored units. Answers have the bits of brute force (render/query/brute_force_points.h) on every instruction set, for
+// stored units. Answers have the bits of brute force (tests/support/brute_force_points.h) on every instruction set, for
 // any number of threads. Equal distances are ordered by id. A sphere of radius 0 counts as a point: unlike rays, these
 // queries find it.
 //

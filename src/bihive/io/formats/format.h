@@ -47,7 +47,7 @@ using FramesOpener = Result<std::shared_ptr<const RawFrames>> (*)(RandomFile fil
 
 struct Format {
   /// What a format has: lines of text without zero bytes, of which the last has an end; any number of frames; columns
-  /// to choose; parts that ranks read each for itself (io/part_of_file.h); data sets (FILE:/GROUP/NAME).
+  /// to choose; parts that ranks read each for itself (io/chunk_of_file.h); data sets (FILE:/GROUP/NAME).
   enum Has : unsigned { kText = 1, kFrames = 2, kColumns = 4, kParts = 8, kDataSets = 16 };
   using Recogniser = bool (*)(const FileHead& head);
   using Reader = std::variant<PlainReader, ColumnReader, TextReader, FramesOpener>;
