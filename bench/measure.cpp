@@ -275,8 +275,11 @@ Measured measure(const BenchScene& bench, const BenchOptions& options) {
   measured.build = built.result;
   if (options.frame) measured.frame = measure_frame(bench, options);
   if (options.kinds.empty()) return measured;
-  for (const RaySet& set : make_ray_sets(bench, *built.tree, options))
+  for (const RaySet& set : make_ray_sets(bench, *built.tree, options)) {
     measured.kinds.push_back(measure_kind(bench, *built.tree, set, options, peer.get()));
+    if (options.bound && has_bound(set.facts.kind)) measured.kinds.back().least = least_work(*built.tree, set);
+  }
+  if (options.bound) measured.cycles_per_s = clock_rate();
   return measured;
 }
 

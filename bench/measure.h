@@ -8,6 +8,7 @@
 
 #include "bench_scene.h"
 #include "judge.h"
+#include "least_work.h"
 #include "options.h"
 
 namespace bihive::bench {
@@ -32,6 +33,7 @@ struct KindResult {
   double ms = 0, peer_ms = 0;  ///< of all rays once
   std::string peer_mode;
   Verdict verdict;
+  LeastWork least;  ///< if requested
 
   double mray_per_s() const { return static_cast<double>(rays) / ms / 1000; }
   double peer_mray_per_s() const { return static_cast<double>(rays) / peer_ms / 1000; }
@@ -47,6 +49,7 @@ struct FrameResult {
 struct Measured {
   std::int64_t spheres = 0;
   std::string description, target, peer_version;
+  double cycles_per_s = 0;  ///< 0: the least work was not requested
   BuildResult build;
   std::vector<KindResult> kinds;
   FrameResult frame;

@@ -23,6 +23,7 @@ struct BenchOptions {
   std::optional<double> ao_distance;  ///< world units; unset: no limit
   std::int64_t tile = 0;              ///< rays that a thread takes at a time, at most; 0: the kind's own number
   std::int64_t call = 0;              ///< rays of one call; 0: a tile's; 1: the queries for one ray, and the peer's
+  bool bound = false;                 ///< count the least work of incoherent rays
   std::string target;                 ///< empty: the best
   bool json = false;
 };

@@ -32,6 +32,43 @@ ordered_json quotient(double value, double by) {
   return value > 0 && by > 0 ? ordered_json(value / by) : ordered_json();
 }
 
+int float_lanes(const std::string& target) {
+  return target == "avx512" ? 16 : target == "avx2" ? 8 : target == "scalar" ? 1 : 4;
+}
+
+// The rate of one thread whose vector ports never wait.
+double bound_mray_per_s(const KindResult& kind, const Measured& measured) {
+  return measured.cycles_per_s / kind.least.cycles(float_lanes(measured.target)) / 1e6;
+}
+
+std::string text_of_bounds(const Measured& measured, const BenchOptions& options) {
+  std::string text =
+      fmt::format("\nLeast work per ray, at {:.2f} GHz:\n{:<16}{:>8}{:>8}{:>12}{:>12}{:>12}{:>8}{:>8}{:>13}{:>9}\n",
+                  measured.cycles_per_s / 1e9, "", "nodes", "leaves", "in order:", "nodes", "leaves", "cand.", "bytes",
+                  "bound", "reached");
+  for (const KindResult& kind : measured.kinds) {
+    if (kind.rays == 0 || !has_bound(kind.facts.kind)) continue;
+    const LeastWork& least = kind.least;
+    const double bound = bound_mray_per_s(kind, measured);
+    text +=
+        fmt::format("{:<16}{:>8.2f}{:>8.2f}{:>24.2f}{:>12.2f}{:>8.2f}{:>8.0f}{:>9.4g} M/s{:>8.0f}%\n", kind.facts.name,
+                    least.nodes, least.leaves, least.nodes_in_order, least.leaves_in_order, least.candidates,
+                    least.bytes, bound, 100 * kind.mray_per_s() / bound / static_cast<double>(options.threads));
+  }
+  return text;
+}
+
+ordered_json json_of_bound(const KindResult& kind, const Measured& measured) {
+  const LeastWork& least = kind.least;
+  return {{"nodes", least.nodes},
+          {"leaves", least.leaves},
+          {"nodes_in_order", least.nodes_in_order},
+          {"leaves_in_order", least.leaves_in_order},
+          {"candidates", least.candidates},
+          {"bytes", least.bytes},
+          {"mray_per_s", bound_mray_per_s(kind, measured)}};
+}
+
 }  // namespace
 
 std::string json_report(const Measured& measured, const BenchOptions& options) {
@@ -89,6 +126,13 @@ std::string json_report(const Measured& measured, const BenchOptions& options) {
     json["peer"] = nullptr;
     json["ratio"] = nullptr;
   }
+  if (measured.cycles_per_s > 0) {
+    json["cycles_per_s"] = measured.cycles_per_s;
+    json["bound"] = ordered_json::object();
+    for (const KindResult& kind : measured.kinds)
+      if (kind.rays > 0 && has_bound(kind.facts.kind))
+        json["bound"][std::string(kind.facts.name)] = json_of_bound(kind, measured);
+  }
   json["mismatches"] = wrong;
   return json.dump(2, ' ', /*ensure_ascii=*/true, ordered_json::error_handler_t::replace) + "\n";
 }
@@ -130,7 +174,9 @@ std::string text_report(const Measured& measured, const BenchOptions& options) {
                         grouped(frame.rays), fmt::format("{:.4g} ms", frame.ms), frame.width_px, frame.height_px);
   text += fmt::format("wrong answers: {}", wrong);
   if (peer) text += fmt::format(", Embree's {}", peer_wrong);
-  return text + "\n";
+  text += "\n";
+  if (measured.cycles_per_s > 0) text += text_of_bounds(measured, options);
+  return text;
 }
 
 }  // namespace bihive::bench

@@ -46,7 +46,7 @@ class WideBuilder {
 /// Bytes of a tree of that many spheres, and of its construction.
 struct WideMemoryPrediction {
   /// WideTree::used_bytes(), as a range: full leaves and a palette, to the most scattered scenes of many radii. Spheres
-  /// that coincide in centre and radius add 22 bytes each (WideTree::repeated), and an outer tree (WideTree::outer)
+  /// that coincide in centre and radius add 10 bytes each (WideTree::repeated), and an outer tree (WideTree::outer)
   /// what a tree of its spheres takes; clusters in which distances fall exponentially can need more.
   std::int64_t low_bytes = 0, high_bytes = 0;
   /// Tree and working memory while building. From 100,000 spheres on, sets of a usual kind took 0.8 to 1 of it.

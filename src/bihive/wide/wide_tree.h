@@ -75,7 +75,7 @@ struct WideSpheres {
 /// A sphere that has an equal: another of the same centre and radius.
 struct RepeatedSphere {
   std::uint32_t id;
-  float x, y, z, r;
+  std::uint32_t slot;  ///< of the first of its equals in the leaves, the same for all of them
 };
 
 /// More than kWidth equal spheres (duplicates), of which the tree holds the one with the lowest id. A ray that meets it
@@ -105,7 +105,7 @@ struct WideTree {
   bool is_image = false;
   Vec3d shift;
   const WideTree* image_of = nullptr;    ///< whose `piles` are those of the image
-  std::vector<RepeatedSphere> repeated;  ///< ascending ids; empty unless spheres coincide
+  std::vector<RepeatedSphere> repeated;  ///< ascending ids; empty unless spheres in the leaves have equals
   std::vector<std::uint32_t>
       repeated_filter;  ///< sixteen bits for each, which tell most other ids apart (tree/left_sphere.h)
 

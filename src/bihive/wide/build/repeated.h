@@ -1,4 +1,4 @@
-// Finds equal spheres among a few, or among many duplicates.
+// Finds equal spheres among a few, or among many duplicates, and puts them into the tree.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,17 @@ inline std::int64_t passes_of_sorting(std::int64_t count) {
 }
 
 /// Adds those of the spheres first to first + count - 1 that have an equal there, in no order. O(n log n).
-void find_repeated(const SphereArrays& spheres, const float* palette, std::int64_t first, std::int64_t count,
-                   std::vector<RepeatedSphere>& repeated);
+void find_equal(const SphereArrays& spheres, const float* palette, std::int64_t first, std::int64_t count,
+                std::vector<EqualSphere>& equal);
 
-/// The groups of duplicates among all repeated spheres of a set: more than kWidth equal ones, ordered by their lowest
-/// ids. The others of each group are ordered by id.
-void find_piles(const std::vector<RepeatedSphere>& repeated, std::vector<Pile>& piles,
-                std::vector<std::uint32_t>& others);
+/// Makes equal spheres neighbours, by id.
+void sort_equal(std::vector<EqualSphere>& equal);
+
+/// The groups of duplicates among all equal spheres of a set, sorted: more than kWidth equal ones, ordered by their
+/// lowest ids. The others of each group are ordered by id.
+void find_piles(const std::vector<EqualSphere>& equal, std::vector<Pile>& piles, std::vector<std::uint32_t>& others);
+
+/// Sets WideTree::repeated and its filter: the sorted spheres that have an equal in the leaves, themselves included.
+void place_repeated(const std::vector<EqualSphere>& equal, WideTree& tree);
 
 }  // namespace bihive

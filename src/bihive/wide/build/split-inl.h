@@ -56,7 +56,7 @@ class Splitter {
       split_at_plane(range, axis, left, right);
     } else {
       left.coincident = right.coincident = true;
-      if (!range.coincident) note_repeated(range);
+      if (!range.coincident) note_equal(range);
       left.count = half_in_full_leaves(range.count, context_.full_leaf);
     }
 
@@ -87,9 +87,9 @@ class Splitter {
       if (context.work != nullptr)
         context.work->report(kShareBeforeSplit + (kShareAfterSplit - kShareBeforeSplit) * static_cast<double>(done) /
                                                      static_cast<double>(context.spheres));
-      if (splitter.repeated_.empty()) return;
+      if (splitter.equal_.empty()) return;
       const std::lock_guard lock(context.mutex);
-      context.repeated.insert(context.repeated.end(), splitter.repeated_.begin(), splitter.repeated_.end());
+      context.equal.insert(context.equal.end(), splitter.equal_.begin(), splitter.equal_.end());
     } catch (const std::bad_alloc&) {
       context.out_of_memory = true;
     }
@@ -206,7 +206,7 @@ class Splitter {
     if (range.coincident || (is_small && all_differ(hashes, range.count))) return;
     SplitRange in_place = range;
     in_place.in_final = true;
-    note_repeated(in_place);
+    note_equal(in_place);
   }
 
   // Are the first `count` hashes different from each other?
@@ -225,15 +225,15 @@ class Splitter {
     return differ;
   }
 
-  void note_repeated(const SplitRange& range) {
+  void note_equal(const SplitRange& range) {
     spheres_read_ += passes_of_sorting(range.count) * range.count;
-    find_repeated(arrays(range.in_final), context_.palette, range.first, range.count, repeated_);
+    find_equal(arrays(range.in_final), context_.palette, range.first, range.count, equal_);
   }
 
   SplitContext& context_;
   TaskList& list_;
   SplitSource source_;
-  std::vector<RepeatedSphere> repeated_;
+  std::vector<EqualSphere> equal_;
   std::int64_t spheres_read_ = 0;
   std::int64_t spheres_in_leaves_ = 0;
 };

@@ -56,6 +56,12 @@ struct InputSummary {
   void add(const InputSummary& next);
 };
 
+/// A sphere that has an equal, as a build finds it.
+struct EqualSphere {
+  std::uint32_t id;
+  float x, y, z, r;
+};
+
 /// The state that all tasks of a build share.
 struct SplitContext {
   SphereArrays scratch, final;  ///< spheres move between the two; leaves end in `final`
@@ -70,7 +76,7 @@ struct SplitContext {
   std::atomic<bool> out_of_memory{false};
   std::atomic<std::int64_t> spheres_read{0};  ///< work done: each sphere counts once per pass
   std::mutex mutex;
-  std::vector<RepeatedSphere> repeated;  ///< in no order
+  std::vector<EqualSphere> equal;  ///< in no order
 
   bool cancelled() const { return work != nullptr && work->cancelled(); }
 };

@@ -72,6 +72,7 @@ struct WideBuilder::State {
   Collapse collapse;
   std::vector<std::uint16_t> cells;
   std::vector<std::uint32_t> cell_counts;
+  std::vector<EqualSphere> equal;  // of the latest build_all(), in no order
 
   std::unique_ptr<WideTree> take_spare() {
     const std::lock_guard lock(mutex);
@@ -94,8 +95,8 @@ struct WideBuilder::State {
                  WideTree& tree, WatchedWork& work);
   void build_part(const SphereSet& spheres, const std::vector<std::int64_t>& ids, const WideParameters& parameters,
                   int threads, WideTree& tree, WatchedWork& work);
-  void build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree,
-                            WatchedWork& work);
+  std::vector<EqualSphere> build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                                                WideTree& tree, WatchedWork& work);
   void build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree,
              WatchedWork& work);
 };
@@ -237,8 +238,6 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   tree.nodes = nullptr;
   tree.levels = 0;
   tree.largest_leaf = 0;
-  tree.repeated.clear();
-  tree.repeated_filter.clear();
   tree.spheres = {};
   if (count == 0) return;
 
@@ -278,10 +277,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   tree.nodes = nodes;
   tree.levels = collapse.levels();
   tree.largest_leaf = collapse.largest_leaf();
-  tree.repeated = std::move(context.repeated);
-  std::sort(tree.repeated.begin(), tree.repeated.end(),
-            [](const RepeatedSphere& a, const RepeatedSphere& b) { return a.id < b.id; });
-  tree.repeated_filter = filter_of(tree.repeated);
+  equal = std::move(context.equal);
   WideSpheres& result = tree.spheres;
   result.x = context.final.x;
   result.y = context.final.y;
@@ -307,15 +303,17 @@ void WideBuilder::State::build_part(const SphereSet& spheres, const std::vector<
 }
 
 // Spheres that no plane separates lie in one leaf, and a ray would test all of them. So if more than a leaf's spheres
-// are equal, the tree is built again with only the first of them.
-void WideBuilder::State::build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads,
-                                              WideTree& tree, WatchedWork& work) {
+// are equal, the tree is built again with only the first of them. Returns all equal spheres, sorted.
+std::vector<EqualSphere> WideBuilder::State::build_without_others(const SphereSet& spheres,
+                                                                  const WideParameters& parameters, int threads,
+                                                                  WideTree& tree, WatchedWork& work) {
   build_all(spheres, parameters, threads, spheres.size(), tree, work);
-  find_piles(tree.repeated, tree.piles, tree.others_in_piles);
-  if (tree.piles.empty()) return;
+  std::vector<EqualSphere> equal_in_set = std::move(equal);
+  sort_equal(equal_in_set);
+  find_piles(equal_in_set, tree.piles, tree.others_in_piles);
+  if (tree.piles.empty()) return equal_in_set;
   std::vector<Pile> piles = std::move(tree.piles);
   std::vector<std::uint32_t> others = std::move(tree.others_in_piles);
-  std::vector<RepeatedSphere> repeated = std::move(tree.repeated);
 
   std::vector<std::uint32_t> left_out = others;
   std::sort(left_out.begin(), left_out.end());
@@ -336,21 +334,20 @@ void WideBuilder::State::build_without_others(const SphereSet& spheres, const Wi
   // Restore the tree's facts about all spheres.
   tree.piles = std::move(piles);
   tree.others_in_piles = std::move(others);
-  tree.repeated = std::move(repeated);
-  tree.repeated_filter = filter_of(tree.repeated);
+  return equal_in_set;
 }
 
 void WideBuilder::State::build(const SphereSet& spheres, const WideParameters& parameters, int threads, WideTree& tree,
                                WatchedWork& work) {
   tree.outer = nullptr;
-  build_without_others(spheres, parameters, threads, tree, work);
+  const std::vector<EqualSphere> equal_in_set = build_without_others(spheres, parameters, threads, tree, work);
+  place_repeated(equal_in_set, tree);
   EnclosedSpheres enclosed = find_enclosed(tree);
   if (enclosed.cores.empty()) return;
   const auto outer = std::make_shared<OuterTree>();
   build_part(spheres, enclosed.others, parameters, threads, outer->tree, work);
   // A ray may exit an equal of an outer sphere.
-  outer->tree.repeated = tree.repeated;
-  outer->tree.repeated_filter = tree.repeated_filter;
+  place_repeated(equal_in_set, outer->tree);
   build_all(spheres.part(enclosed.enclosing), {}, threads, spheres.size(), outer->around_cores, work);
   outer->cores = std::move(enclosed.cores);
   tree.outer = outer;

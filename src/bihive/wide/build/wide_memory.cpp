@@ -61,7 +61,8 @@ WideMemoryPrediction predict_wide_memory(std::int64_t spheres, const WideParamet
 
   // During the build: the spheres twice, their cells, every sphere repeated, splits and nodes in doubling memory, an
   // outer tree of nearly all spheres with the sets and lists that it is made of, and huge-page alignment.
-  constexpr double kSpheresTwice = 2 * 20 + 2, kRepeated = 2 * sizeof(RepeatedSphere) + 2, kOuter = 20 + 16 + 2 * 8 + 1;
+  constexpr double kSpheresTwice = 2 * 20 + 2, kRepeated = 2 * sizeof(EqualSphere) + 2 * sizeof(RepeatedSphere) + 2,
+                   kOuter = 20 + 16 + 2 * 8 + 1;
   const double nodes = peak_nodes * double(kNode);
   prediction.most_bytes = static_cast<std::int64_t>((kSpheresTwice + kRepeated + kOuter) * double(padded) +
                                                     2 * peak_leaves * double(sizeof(BinarySplit)) + 4 * nodes) +

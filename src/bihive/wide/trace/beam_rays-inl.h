@@ -42,7 +42,7 @@ struct alignas(64) BeamRays {
   /// written unless the span says on which spheres rays start.
   std::uint32_t left_id[kBeamRays];
   /// The spheres that rays exit and others coincide with, each surface once, and the left_id of their rays.
-  const RepeatedSphere* left_repeated[kBeamRays];
+  std::uint32_t left_slot[kBeamRays];
   std::uint32_t id_of_repeated[kBeamRays];
   int repeated_count;
   float e, pad;
@@ -208,10 +208,6 @@ HWY_INLINE FloatMask set_up_ends(const double* t_max, double scale, Floats lengt
   return hn::Ge(end, hn::Zero(d));
 }
 
-HWY_INLINE bool same_surface(const RepeatedSphere& a, const RepeatedSphere& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z && a.r == b.r;
-}
-
 // The same id for all rays that exit one surface.
 HWY_INLINE void unite_repeated(const std::int64_t* leaves, const WideTree& tree, BeamRays& out) {
   for (int i = 0; i < kBeamRays; ++i) {
@@ -222,9 +218,9 @@ HWY_INLINE void unite_repeated(const std::int64_t* leaves, const WideTree& tree,
     const RepeatedSphere* const sphere = LeftSphere(tree, leaves[i]).repeated();
     if (sphere == nullptr) continue;
     int k = 0;
-    while (k < out.repeated_count && !same_surface(*out.left_repeated[k], *sphere)) ++k;
+    while (k < out.repeated_count && out.left_slot[k] != sphere->slot) ++k;
     if (k == out.repeated_count) {
-      out.left_repeated[k] = sphere;
+      out.left_slot[k] = sphere->slot;
       out.id_of_repeated[k] = out.left_id[i];
       ++out.repeated_count;
     }
@@ -245,7 +241,7 @@ HWY_INLINE void set_up_left_spheres(const std::int64_t* leaves, const WideTree& 
 /// What BeamRays::left_id has for rays that exit the sphere of this slot.
 HWY_INLINE std::uint32_t left_id_of(const WideTree& tree, const BeamRays& rays, std::uint32_t slot) {
   for (int i = 0; i < rays.repeated_count; ++i)
-    if (coincides(tree, slot, *rays.left_repeated[i])) return rays.id_of_repeated[i];
+    if (coincide(tree, slot, rays.left_slot[i])) return rays.id_of_repeated[i];
   return static_cast<std::uint32_t>(tree.spheres.id(slot));
 }
 

@@ -146,9 +146,9 @@ class ListRays {
     for (int k = 0; k < count; ++k) {
       const RepeatedSphere* const left = LeftSphere(tree_, rays_.leaves[first + k]).repeated();
       tile_.careful[first + k] = left != nullptr ? 1 : 0;
-      tile_.left_centre[0][first + k] = left != nullptr ? left->x : 0;
-      tile_.left_centre[1][first + k] = left != nullptr ? left->y : 0;
-      tile_.left_centre[2][first + k] = left != nullptr ? left->z : 0;
+      tile_.left_centre[0][first + k] = left != nullptr ? tree_.spheres.x[left->slot] : 0;
+      tile_.left_centre[1][first + k] = left != nullptr ? tree_.spheres.y[left->slot] : 0;
+      tile_.left_centre[2][first + k] = left != nullptr ? tree_.spheres.z[left->slot] : 0;
     }
   }
 

@@ -18,6 +18,7 @@
 #include "bihive/wide/trace/filter_bounds.h"
 #include "bihive/wide/trace/local_rays-inl.h"
 #include "bihive/wide/trace/sphere_filter-inl.h"
+#include "bihive/wide/tree/left_sphere.h"
 #include "bihive/wide/tree/radii-inl.h"
 #include "bihive/wide/wide_tree.h"
 
@@ -159,11 +160,8 @@ class WaitingChildren {
 /// Whether the sphere of this slot coincides with a ray's nearest sure hit so far, or kNoSlot. The ray meets both at
 /// the same t, so the one with the smaller id becomes the winner, or stays it, and nothing is left to decide.
 HWY_INLINE bool equals_winner(const WideTree& tree, std::uint32_t slot, std::uint32_t& winner) {
-  const WideSpheres& spheres = tree.spheres;
-  if (winner == kNoSlot || spheres.x[slot] != spheres.x[winner] || spheres.y[slot] != spheres.y[winner] ||
-      spheres.z[slot] != spheres.z[winner] || spheres.radius(slot) != spheres.radius(winner))
-    return false;
-  if (spheres.id(slot) < spheres.id(winner)) winner = slot;
+  if (winner == kNoSlot || !coincide(tree, slot, winner)) return false;
+  if (tree.spheres.id(slot) < tree.spheres.id(winner)) winner = slot;
   return true;
 }
 

@@ -36,9 +36,9 @@ HWY_INLINE Hit answer_ray(const WideTree& tree, const Ray& world) {
     ray.inward = world.inside;
     ray.careful = left.is_repeated();
     if (ray.careful) {
-      ray.left_centre[0] = left.repeated()->x;
-      ray.left_centre[1] = left.repeated()->y;
-      ray.left_centre[2] = left.repeated()->z;
+      ray.left_centre[0] = tree.spheres.x[left.repeated()->slot];
+      ray.left_centre[1] = tree.spheres.y[left.repeated()->slot];
+      ray.left_centre[2] = tree.spheres.z[left.repeated()->slot];
     }
   }
 

@@ -119,8 +119,9 @@ Status check_repeated(const WideTree& tree, const SphereSet& set) {
                  std::to_string(expected.size()));
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const RepeatedSphere& sphere = tree.repeated[i];
-    if (sphere.id != expected[i] ||
-        key(sphere.id) != std::tuple(double(sphere.x), double(sphere.y), double(sphere.z), double(sphere.r)))
+    const bool placed = std::int64_t{sphere.slot} < tree.placed;
+    if (sphere.id != expected[i] || !placed || key(sphere.id) != key(tree.spheres.id(sphere.slot)) ||
+        (i > 0 && key(sphere.id) == key(tree.repeated[i - 1].id) && sphere.slot != tree.repeated[i - 1].slot))
       return wrong("repeated sphere " + std::to_string(i) + " is another one");
   }
   return Done{};
