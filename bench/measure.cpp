@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/resident_memory.h"
@@ -27,6 +28,7 @@ constexpr std::int64_t kFewestBuilds = 3;
 // A timing longer than this takes only some tiles of the rays: at least kFewestTiles, the same for ours and the peer.
 constexpr double kLongestTimingMs = 200;
 constexpr std::int64_t kFewestTiles = 8;
+constexpr double kLongestPeerMs = 2000;
 // The modes of the peer that come this close to the fastest on a sample are measured in full. A mode that is slower
 // than kHopeless times the current best at its first try gets no second try.
 constexpr double kCloseToBest = 1.1;
@@ -165,6 +167,19 @@ std::vector<Contender> best_modes(const Embree& peer, const RaySet& set, const T
   return contenders;
 }
 
+// Blocks of 64 rays, spread over the set, that the peer traces in about kLongestTimingMs if all would take it longer
+// than kLongestPeerMs, as sets of many equal spheres do.
+std::optional<Tiles> sample_of_slow_peer(const Embree& peer, const RaySet& set) {
+  constexpr std::int64_t kBlock = 64, kProbes = 4;
+  const std::int64_t rays = set.rays.size(), blocks = (rays + kBlock - 1) / kBlock;
+  if (blocks < kProbes) return std::nullopt;
+  const Tiles probe(rays, kBlock, blocks / kProbes);
+  const double ms_per_block = peer.trace_ms(*peer.prepare(set, 1), false, probe) / static_cast<double>(probe.count());
+  if (ms_per_block * static_cast<double>(blocks) < kLongestPeerMs) return std::nullopt;
+  const auto affordable = std::max(kProbes, static_cast<std::int64_t>(kLongestTimingMs / ms_per_block));
+  return Tiles(rays, kBlock, std::max<std::int64_t>(1, blocks / affordable));
+}
+
 // The size of tiles of at most `most` rays, such that the threads share the tiles evenly.
 std::int64_t even_tile(std::int64_t rays, std::int64_t most, std::int64_t threads) {
   const std::int64_t rounds = (rays + most * threads - 1) / (most * threads);
@@ -204,9 +219,13 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   const Tiles all = Tiles::all(result.rays, tile);
   double longest = trace_ours_ms(tree, set, threads, all, options.call, answers);
   std::vector<Contender> contenders;
+  std::optional<Tiles> few;  // all that a slow peer traces
   if (peer != nullptr) {
-    contenders = best_modes(*peer, set, Tiles(result.rays, tile, std::max<std::int64_t>(1, all.count() / kFewestTiles)),
-                            options.call);
+    few = sample_of_slow_peer(*peer, set);
+    const Tiles tried = few ? *few : Tiles(result.rays, tile, std::max<std::int64_t>(1, all.count() / kFewestTiles));
+    contenders = best_modes(*peer, set, tried, options.call);
+  }
+  if (peer != nullptr && !few) {
     for (const Contender& contender : contenders)
       longest = std::max(longest, peer->trace_ms(*contender.rays, contender.mode.coherent, all));
   }
@@ -218,9 +237,11 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
   const std::int64_t passes = passes_for(ours() * share);
   std::int64_t peer_passes = 1;
   const auto theirs = [&](const Contender& contender) {
-    return peer->trace_ms(*contender.rays, contender.mode.coherent, timed) / share;
+    if (!few) return peer->trace_ms(*contender.rays, contender.mode.coherent, timed) / share;
+    return peer->trace_ms(*contender.rays, contender.mode.coherent, *few) * static_cast<double>(result.rays) /
+           static_cast<double>(few->rays());
   };
-  if (peer != nullptr) peer_passes = passes_for(theirs(contenders[0]) * share);
+  if (peer != nullptr) peer_passes = few ? 1 : passes_for(theirs(contenders[0]) * share);
 
   // In turn.
   std::vector<double> times;
@@ -240,6 +261,10 @@ KindResult measure_kind(const BenchScene& bench, const WideTree& tree, const Ray
                                      [](const auto& a, const auto& b) { return median(a.ms) < median(b.ms); });
   result.peer_ms = median(best->ms);
   result.peer_mode = best->mode.name();
+  if (few) {
+    result.verdict = judge_alone(bench.scene.spheres, set, answers);
+    return result;
+  }
   result.verdict = judge(bench.scene.spheres, tree, set, answers, best->rays->answers(),
                          [&](const Ray& ray) { return peer->closest(ray); });
   return result;

@@ -223,6 +223,21 @@ BIHIVE_API int bihive_surfaces(const bihive_tree* tree, const bihive_rays* rays,
 /* Every sphere that ray i hits, by t, then id; t is where the ray enters it (where it exits, if it starts inside). */
 BIHIVE_API int bihive_all_hits(const bihive_tree* tree, const bihive_rays* rays, int threads, bihive_lists** lists);
 
+/* ---- Structures compared ---- */
+
+/* Builds several structures on the tree's spheres, gives each the same queries, and counts, times and compares their
+ * answers (docs/comparison.md). structures, rays: names, separated by commas; NULL: all. count: primary and random
+ * rays, and points. threads: of all queries. *json gets the text that `bihive compare --json` prints, to be freed by
+ * bihive_text_free(). It calls the progress function, but may take seconds to end after a cancellation. Failures: an
+ * unknown name, no sphere, a tree in a cell. */
+BIHIVE_API int bihive_compare(const bihive_tree* tree, const char* structures, const char* rays, int64_t count,
+                              int threads, char** json);
+/* Searches the parameters of one structure (NULL: the wide tree) that answer such queries quickest on this machine, in
+ * about ten seconds; *json as `bihive tune --json` prints it. */
+BIHIVE_API int bihive_tune(const bihive_tree* tree, const char* structure, const char* rays, int64_t count, int threads,
+                           char** json);
+BIHIVE_API void bihive_text_free(char* text);
+
 /* ---- Pictures ---- */
 
 typedef struct bihive_scene bihive_scene;

@@ -200,7 +200,7 @@ class Arguments(ProgramTest):
     def test_every_public_name_is_tried(self):
         tried = {"BodyHits", "BodyTree", "Spheres", "Sticks", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
                  "again", "angle", "buried_area", "colour_map", "compare", "contacts", "convert", "dihedral", "distance", "film", "linear", "measure", "page", "porosity", "read", "render", "sasa", "save_page", "select", "stats",
-                 "verify", "view", "volume", "widget"}
+                 "tune", "verify", "view", "volume", "widget"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}
         self.assertEqual(set(bh.__all__), tried | errors | {"__version__"})
         methods = {name for name, one in vars(bh.Spheres).items() if callable(one) and not name.startswith("_")}
@@ -231,6 +231,7 @@ class Arguments(ProgramTest):
         for call in (bh.measure, bh.sasa, bh.volume, bh.contacts):
             self.try_all(call, {"spheres": self.spheres})
         self.try_all(bh.compare, {"spheres": self.spheres, "structures": ["bih"], "rays": ["random"], "count": 4})
+        self.try_all(bh.tune, {"spheres": self.spheres, "structure": "bih", "rays": ["random"], "count": 4})
         self.try_all(bh.porosity, {"spheres": bh.Spheres(np.zeros((1, 3)), radius=1, cell=[2, 2, 2])})
         self.try_all(bh.buried_area, {"spheres": self.spheres, "groups": [[0], [1, 2]]})
         self.try_all(bh.angle, {"spheres": self.spheres, "triples": [0, 1, 2]})

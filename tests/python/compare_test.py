@@ -55,5 +55,39 @@ class Compare(unittest.TestCase):
             bh.compare(np.zeros((2, 3)))
 
 
+class Tune(unittest.TestCase):
+    def test_it_has_the_schema(self):
+        try:
+            import jsonschema
+        except ImportError:
+            self.skipTest("jsonschema is not installed")
+        with open(os.path.join(SOURCE, "docs/tuning.schema.json")) as file:
+            schema = json.load(file)
+        found = bh.tune(some_spheres(), structure="kd-sah", rays=["random", "points"], count=64)
+        jsonschema.Draft7Validator(schema).validate(found)
+        self.assertEqual(found["structure"], "kd-sah")
+        self.assertEqual(list(found["queries"]), ["random", "points"])
+        self.assertGreaterEqual(found["gain"], 1)
+
+    def test_its_limits_are_those_of_a_tree(self):
+        found = bh.tune(some_spheres(), rays=["random"], count=64)
+        limits = {name.replace("-", "_"): value for name, value in found["best"]["parameters"].items()}
+        tree = bh.Tree(some_spheres(), **limits)
+        self.assertEqual(tree.closest([[-9.0, 0, 0]], [1, 0, 0]).id.shape, (1,))
+
+    def test_refusals(self):
+        for arguments, part in (
+            ({"structure": "grid"}, "structure: expected one of wide, bih"),
+            ({"rays": ["x"]}, "rays: expected one of primary"),
+            ({"count": 0}, "count"),
+            ({"threads": [1, 2]}, "threads"),
+        ):
+            with self.assertRaises(bh.UsageError) as raised:
+                bh.tune(some_spheres(3), **arguments)
+            self.assertIn(part, str(raised.exception))
+        with self.assertRaises(bh.UsageError):
+            bh.tune(bh.Spheres(np.zeros((0, 3)), radius=1))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -129,6 +129,7 @@ def cases(folder):
         "distance": lambda: bh.distance(s, [[0, 1], [5, 9]]),
         "measure": lambda: bh.measure(few, probe=0.1, select="charge > 0", threads=2),
         "compare": lambda: bh.compare(few, structures=["kd-sah"], rays=["points"], count=8),
+        "tune": lambda: bh.tune(few, structure="bvh-lbvh", rays=["points"], count=4),
         "sasa": lambda: bh.sasa(few),
         "volume": lambda: bh.volume(few),
         "Measures": fields(bh.measure(few, derivatives=True)),

@@ -15,6 +15,7 @@ view                the page in a browser, with spheres from memory; page and wi
 select, stats       spheres that match an expression; statistics of the trees
 distance            between centres of spheres; angle, dihedral
 compare             trees and grids on the same spheres, by steps and by time
+tune                the limits of a tree that suit spheres and machine
 measure             exact area and volume of the union of spheres; sasa, volume, porosity, contacts, buried_area
 colour_map          colours of numbers; linear: linear light as colours
 Error               the base of all exceptions of this package
@@ -24,7 +25,7 @@ from ._bihive import __version__
 from ._bodies import BodyHits, BodyTree, Sticks
 from ._camera import Look, Orthographic, Perspective, Style
 from ._colours import linear
-from ._compare import compare
+from ._compare import compare, tune
 from ._errors import Error, FileError, InputError, InputWarning, MissingError, UsageError
 from ._figures import Verdict, again, verify
 from ._film import film
@@ -86,6 +87,7 @@ __all__ = [
     "save_page",
     "select",
     "stats",
+    "tune",
     "verify",
     "view",
     "volume",

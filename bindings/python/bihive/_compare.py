@@ -1,4 +1,4 @@
-"""Structures compared on the same spheres."""
+"""Structures compared on the same spheres, and their parameters."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ._spheres import Spheres
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["compare"]
+__all__ = ["compare", "tune"]
 
 _MOST_COUNTS_OF_THREADS = 16
 
@@ -40,10 +40,7 @@ def compare(
     >>> [one["name"] for one in found["structures"]], found["same_bits"]
     (['bih', 'kd-sah'], True)
     """
-    if not isinstance(spheres, Spheres):
-        raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
-    if len(spheres) == 0:
-        raise bad_argument("spheres", "there is no sphere")
+    _some(spheres)
     at_once = several("threads", threads, "numbers") if isinstance(threads, (list, tuple)) else [threads]
     if not 1 <= len(at_once) <= _MOST_COUNTS_OF_THREADS:
         raise bad_argument("threads", f"expected 1 to {_MOST_COUNTS_OF_THREADS} numbers, found {found(threads)}")
@@ -56,6 +53,46 @@ def compare(
     )
     comparison: dict[str, Any] = json.loads(made)
     return comparison
+
+
+def tune(
+    spheres: Spheres,
+    *,
+    structure: str = "wide",
+    rays: Optional[Sequence[str]] = None,
+    count: int = 4096,
+    threads: int = 1,
+) -> dict[str, Any]:
+    """The limits of the tree with which queries of these spheres are fastest on this machine, searched for about ten seconds.
+
+    structure: of those that take ``max-prims`` (docs/comparison.md). rays, count: the queries, as in `compare`. threads: of queries and
+    builds, 0 as many as the machine runs at once.
+
+    Returns what `bihive tune --json` prints, as docs/tuning.schema.json describes it: ``best["parameters"]`` has the limits to pass to
+    Tree or render as max_prims and max_depth, empty where the tree's own choice is as good; ``gain`` says how many times as fast they are.
+
+    >>> found = tune(read("four-spheres"), rays=["random"], count=64)
+    >>> found["structure"], found["gain"] >= 1
+    ('wide', True)
+    """
+    _some(spheres)
+    made = _bihive.tune(
+        spheres._core,
+        one_of("structure", structure, _bihive.tuned_structure_names()),
+        _names("rays", rays, _bihive.query_kind_names()),
+        int(whole_numbers("count", count, 1, 1, 1 << 30)[0]),
+        int(whole_numbers("threads", threads, 1, 0, 4096)[0]),
+    )
+    tuning: dict[str, Any] = json.loads(made)
+    return tuning
+
+
+def _some(spheres: Spheres) -> None:
+    """Refuses what is no set of spheres, or an empty one."""
+    if not isinstance(spheres, Spheres):
+        raise bad_argument("spheres", f"expected Spheres, found {found(spheres)}")
+    if len(spheres) == 0:
+        raise bad_argument("spheres", "there is no sphere")
 
 
 def _names(argument: str, names: Optional[Sequence[str]], known: list[str]) -> list[str]:

@@ -141,6 +141,18 @@ Result<QueryKind> query_kind_named(const std::string& name) {
                near.empty() ? "" : "did you mean " + near + "?"};
 }
 
+Result<std::vector<QueryKind>> query_kinds_named(const std::vector<std::string>& names) {
+  std::vector<QueryKind> kinds;
+  for (const std::string& name : names) {
+    const Result<QueryKind> kind = query_kind_named(name);
+    if (!kind) return kind.error();
+    if (std::find(kinds.begin(), kinds.end(), *kind) != kinds.end())
+      return Error{"the rays " + name + " stand twice", "", 0, 0, ""};
+    kinds.push_back(*kind);
+  }
+  return kinds;
+}
+
 void complete_for_queries(Scene& scene, bool has_camera, bool has_lights) {
   if (!has_camera) {
     constexpr int kSide = 256;  // of any square picture

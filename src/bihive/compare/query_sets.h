@@ -32,6 +32,8 @@ constexpr std::array<QueryKindRow, 6> kQueryKinds{{{QueryKind::primary, "primary
                                                    {QueryKind::points, "points", false}}};
 /// Error: there is none of this name; the message lists all.
 Result<QueryKind> query_kind_named(const std::string& name);
+/// One for each name. Error: an unknown one, or one that stands twice.
+Result<std::vector<QueryKind>> query_kinds_named(const std::vector<std::string>& names);
 const QueryKindRow& row_of(QueryKind kind);
 
 /// Rays, or points: world units, x, y, z one after the other.
