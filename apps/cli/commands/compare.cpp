@@ -28,6 +28,8 @@ using workbench::Comparison;
 using workbench::KindResult;
 using workbench::StructureResult;
 
+constexpr int kCostPicturePx = 192;  // of a report
+
 // A set of these spheres alone: centres and radii, without attributes.
 void keep_selected(Scene& scene, const std::vector<std::uint8_t>& mask) {
   const SphereSet& all = scene.spheres;
@@ -78,6 +80,7 @@ void compare(const CompareOptions& options, const Scene& scene) {
   wanted.kinds = options.kinds;
   wanted.count = options.count;
   wanted.threads = options.threads;
+  if (!options.output.empty()) wanted.cost_picture_px = kCostPicturePx;
   Comparison comparison;
   {
     Progress progress("comparing");

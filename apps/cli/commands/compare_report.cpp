@@ -15,6 +15,7 @@
 #include "bihive/job/messages.h"
 #include "bihive/simd/target.h"
 #include "commands/compare_text.h"
+#include "commands/cost_pictures.h"
 
 namespace bihive::cli {
 namespace {
@@ -53,6 +54,32 @@ must::data rows_of(const Comparison& comparison, std::size_t k) {
     rows << row;
   }
   return rows;
+}
+
+// Puts the pictures of costs and their scale into the page.
+void add_cost_pictures(const Comparison& comparison, must::data& view) {
+  const CostPictures made = cost_pictures(comparison);
+  if (made.pictures.empty()) return;
+  must::data pictures{must::data::type::list}, ticks{must::data::type::list};
+  for (const CostPicture& one : made.pictures) {
+    must::data picture;
+    picture.set("structure", one.structure);
+    picture.set("png", base64(one.png));
+    picture.set("least", grouped(std::llround(one.least)));
+    picture.set("mean", short_number(one.mean));
+    picture.set("most", grouped(std::llround(one.most)));
+    pictures << picture;
+  }
+  for (const double value : made.ticks) {
+    must::data tick;
+    tick.set("value", grouped(std::llround(value)));
+    tick.set("percent", fmt::format("{:.2f}", 100 * made.share(value)));
+    ticks << tick;
+  }
+  view.set("cost_pictures", true);
+  view.set("pictures", pictures);
+  view.set("ticks", ticks);
+  view.set("scale_colours", fmt::format("{}", fmt::join(made.colours, ", ")));
 }
 
 must::data page_of(const std::string& name, std::int64_t spheres, const std::string& threads) {
@@ -178,6 +205,7 @@ std::string comparison_html(const Comparison& comparison, const std::string& nam
     kinds << kind;
   }
   view.set("kinds", kinds);
+  add_cost_pictures(comparison, view);
   return rendered(view);
 }
 

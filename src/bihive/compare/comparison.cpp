@@ -98,7 +98,8 @@ class Run {
   }
 
   Result<StructureResult> measure(const StructureRow& row) {
-    StructureResult result{row, 0, -1, {}, {}, {}};
+    StructureResult result;
+    result.row = row;
     return_free_memory();
     const bool has_peak = forget_peak();
     const std::int64_t before = resident_bytes();
@@ -114,7 +115,19 @@ class Run {
       end_parts(1);
     }
     result.fit = fit_costs(groups);
+    if (options_.cost_picture_px > 0) result.costs = costs_of_pixels(**structure, options_.cost_picture_px);
     return result;
+  }
+
+  std::vector<float> costs_of_pixels(const Structure& structure, int side_px) const {
+    QuerySet set;
+    for (int y = 0; y < side_px; ++y)
+      for (int x = 0; x < side_px; ++x) set.rays.push_back(primary_ray(scene_, side_px, x, y));
+    std::vector<float> costs;
+    if (affordable(structure, set) < set.size()) return costs;
+    for (const Work& work : count_all(structure, set, threads_.front()))
+      costs.push_back(static_cast<float>(work.cost()));
+    return costs;
   }
 
   KindResult measure(const Structure& structure, std::size_t k, std::vector<TimedWork>& groups) {

@@ -22,6 +22,7 @@ struct ComparisonOptions {
   /// Numbers of threads, each for all queries; the first one also for counts and, where a builder uses threads, for
   /// builds. 0: all. Repeated numbers count once.
   std::vector<int> threads{1, 0};
+  int cost_picture_px = 0;    ///< sides of the pictures of costs (StructureResult::costs); 0: none
   ProgressCallback progress;  ///< on the caller's thread
 };
 
@@ -59,6 +60,9 @@ struct StructureResult {
   /// Of its steps on one thread, from four groups of each kind's queries, by their number of steps. Those of the wide
   /// tree are fitted to the steps of a scalar traversal.
   CostFit fit;
+  /// Work::cost() of the primary ray through each pixel of a square picture, row by row from the top. Empty: not
+  /// requested, or the structure would need more than 2^28 steps.
+  std::vector<float> costs;
 
   bool same_bits() const;
 };
