@@ -470,6 +470,25 @@ static void test_bodies(void) {
   EXPECT(kinds[4] == BIHIVE_NOTHING && ids[4] == -1); /* it ends before */
   EXPECT(bihive_bodies_occluded(bodies, &rays, 0, hidden) == 0);
   EXPECT(hidden[0] == 1 && hidden[1] == 1 && hidden[2] == 1 && hidden[3] == 0 && hidden[4] == 0);
+  {
+    bihive_lists* lists = NULL;
+    EXPECT(bihive_bodies_all_hits(bodies, &rays, 1, &lists) == 0);
+    {
+      const int64_t* const begin = bihive_lists_begin(lists);
+      const int64_t* const numbers = bihive_lists_spheres(lists);
+      const uint8_t* const kind = bihive_lists_kinds(lists);
+      EXPECT(begin[0] == 0 && begin[1] == 1 && begin[2] == 3 && begin[3] == 4 && begin[4] == 4 && begin[5] == 4);
+      EXPECT(kind[0] == BIHIVE_STICK && numbers[0] == 0 && bihive_lists_along(lists)[0] == 0.5);
+      /* The second ray meets the sphere, and the stick that begins in it. */
+      EXPECT(kind[1] == BIHIVE_SPHERE && numbers[1] == 0 && bihive_lists_distances(lists)[1] == 8);
+      EXPECT(kind[2] == BIHIVE_STICK && numbers[2] == 0 && bihive_lists_distances(lists)[2] == 8.75);
+      EXPECT(kind[3] == BIHIVE_STICK && numbers[3] == 1 && bihive_lists_distances(lists)[3] == t[2]);
+    }
+    bihive_lists_free(lists);
+    EXPECT_ERROR(bihive_bodies_all_hits(bodies, &rays, 1, NULL), "no place");
+    EXPECT_ERROR(bihive_bodies_all_hits(NULL, &rays, 1, &lists), "NULL");
+    EXPECT(lists == NULL);
+  }
   EXPECT_ERROR(bihive_bodies_closest(bodies, &rays, 1, t, NULL, ids, along), "no place");
   EXPECT_ERROR(bihive_bodies_occluded(bodies, NULL, 1, hidden), "NULL");
   bihive_bodies_free(bodies);

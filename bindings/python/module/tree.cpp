@@ -269,17 +269,19 @@ py::tuple every_hit(const RayTree& tree, const py::array& origin, const py::arra
                     const std::optional<py::array_t<std::uint8_t>>& inside,
                     const std::optional<py::array_t<std::int64_t>>& exclude, bool see_images) {
   const WideTree* const periodic = tree_of_images(tree, see_images);
-  const WideTree& wide = wide_tree_for(tree, "all_hits");
+  const WideTree* const wide = tree.scene ? nullptr : &wide_tree_for(tree, "all_hits");
   const RayArrays rays = rays_from(origin, direction, t_min, t_max, leaves, inside);
   const std::int64_t most = std::min(rays_per_piece(tree, rays.count, RayOrder::any), kMostRaysOfHits);
   std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
   FirstWithoutEnd without_end;
   trace_in_pieces(tree, rays, most, [&](const RaySpan& span, std::int64_t first, std::int64_t piece) {
     std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
-    if (periodic == nullptr)
-      all_hits(wide, span, found);
+    if (wide == nullptr)
+      tree.tracer->all_hits(span, RayOrder::any, found);
+    else if (periodic == nullptr)
+      all_hits(*wide, span, found);
     else if (!without_end.is_before(first))
-      without_end.take(first, tree.images->all_hits(wide, span, found, excluded_from(exclude, first)));
+      without_end.take(first, tree.images->all_hits(*wide, span, found, excluded_from(exclude, first)));
     for (RayHit& hit : found) hit.ray += first;
   });
   value_of(without_end.status());
