@@ -27,11 +27,16 @@ std::vector<ImagePair> bonds_of_file(const SphereSet& spheres);
 /// bonds_by_distance().
 Result<std::vector<ImagePair>> automatic_bonds(const SphereSet& spheres, double reach, int threads = 0);
 
+/// Makes automatic_bonds() what the spheres state (SphereAttributes::bonds), of several to images of an atom one. Those
+/// by distance have no order, and there are none where no element is known. Returns the number of bonds that are new.
+/// An Error: a cell as small as bonds_by_distance() says.
+Result<std::int64_t> state_bonds(SphereSet& spheres, double reach, int threads = 0);
+
 /// Gives the atoms of a scene the radii of Sticks::ball_scale. An Error where no element is known, but for Bonds::file.
 Status scale_balls(Scene& scene, const Sticks& sticks);
 
-/// Sets Scene::sticks to the bonds between the scene's spheres. Errors: as bonds_by_distance(), StickSet::between() and
-/// check_sticks(); Bonds::file where the file states none.
+/// Sets Scene::sticks to the bonds between the scene's spheres, with Sticks::orders as parallel_sticks() has them.
+/// Errors: as bonds_by_distance(), StickSet::between() and check_sticks(); Bonds::file where the file states none.
 Status find_bonds(Scene& scene, const Sticks& sticks, int threads = 0);
 
 }  // namespace bihive
