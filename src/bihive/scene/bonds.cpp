@@ -54,15 +54,20 @@ Result<std::vector<ImagePair>> find_by_distance(const SphereSet& spheres, double
   if (!found) return found.error();
   const std::vector<NearPair>& near = *found;
 
-  // Find the nearest one of each hydrogen atom.
+  // Find the nearest one of each hydrogen atom: others of hydrogen count where there is nothing else.
   std::vector<std::int64_t> nearest(atoms.size(), -1);
   const auto is_hydrogen = [&](std::int32_t id) { return element[static_cast<std::size_t>(id)] == kHydrogen; };
+  const auto is_of_two = [&](const NearPair& pair) {
+    return is_hydrogen(pair.points[0]) && is_hydrogen(pair.points[1]);
+  };
+  const auto is_nearer = [&](const NearPair& a, const NearPair& b) {
+    return std::pair(is_of_two(a), a.distance_squared) < std::pair(is_of_two(b), b.distance_squared);
+  };
   for (std::size_t k = 0; k < near.size(); ++k)
     for (const std::int32_t id : near[k].points) {
       if (!is_hydrogen(id)) continue;
       std::int64_t& best = nearest[static_cast<std::size_t>(id)];
-      if (best < 0 || near[k].distance_squared < near[static_cast<std::size_t>(best)].distance_squared)
-        best = static_cast<std::int64_t>(k);
+      if (best < 0 || is_nearer(near[k], near[static_cast<std::size_t>(best)])) best = static_cast<std::int64_t>(k);
     }
 
   std::vector<ImagePair> bonds;

@@ -12,11 +12,11 @@
 namespace bihive {
 
 /// The pairs of atoms that are at most `reach` times the sum of their covalent radii apart [Cordero2008]; of coincident
-/// atoms none. A hydrogen atom has one bond, to the nearest of these atoms, of equally near ones the first. Distances
-/// are in Å, and know the images of a periodic cell (geometry/lattice.h): an atom may have several bonds to images of
-/// another one, and to its own. The ids of each pair ascend, and so do the pairs. Spheres of unknown element have no
-/// bonds. Error: none has an element; a periodic cell so small that an atom is near more than 1,000 of its images. The
-/// same on any number of threads (0: all).
+/// atoms none. A hydrogen atom has one bond, to the nearest of these atoms that is not hydrogen, or else to the nearest
+/// one that is; of equally near ones the first. Distances are in Å, and know the images of a periodic cell
+/// (geometry/lattice.h): an atom may have several bonds to images of another one, and to its own. The ids of each pair
+/// ascend, and so do the pairs. Spheres of unknown element have no bonds. Error: none has an element; a periodic cell
+/// so small that an atom is near more than 1,000 of its images. The same on any number of threads (0: all).
 Result<std::vector<ImagePair>> bonds_by_distance(const SphereSet& spheres, double reach, int threads = 0);
 
 /// The bonds that the file states (SphereAttributes::bonds), each to the nearest image of its second atom in a periodic
