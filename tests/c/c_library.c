@@ -363,6 +363,8 @@ static void test_pictures(void) {
   const uint8_t colours[] = {255, 0, 0, 0, 0, 255};
   const char* json = "{\"bihive_scene\": 1, \"spheres\": [[0, 0, 0, 1]]}";
   const char* xyz = "2\ntwo\nO 0 0 0\nC 3 0 0\n";
+  const char* spins = "x,y,z,r,sx,sy,sz\n0,0,0,0.4,0,1,0\n";
+  const char* of_arrows[] = {"arrows", "arrow_scale", "arrow_radius", "arrow_colour", "arrow_pivot"};
   bihive_scene* scene = NULL;
 
   EXPECT(bihive_scene_methods(NULL) == NULL);
@@ -436,6 +438,27 @@ static void test_pictures(void) {
   bihive_scene_free(scene);
   EXPECT(bihive_scene_from_bytes(json, strlen(json), "one.json", NULL, &scene) == 0);
   if (scene != NULL) EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, one) == 0);
+  bihive_scene_free(scene);
+
+  /* Arrows along columns: up, in a picture whose sphere is small, green where they are. */
+  EXPECT(bihive_scene_from_bytes(spins, strlen(spins), "spins.csv", "plain", &scene) == 0);
+  EXPECT(bihive_scene_set(scene, "eye", "0,0,20") == 0 && bihive_scene_set(scene, "look_at", "0,0,0") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, one) == 0);
+  EXPECT(bihive_scene_set(scene, "arrows", "sx,sy,sz") == 0 && bihive_scene_set(scene, "arrow_scale", "3") == 0);
+  EXPECT(bihive_scene_set(scene, "arrow_radius", "0.5") == 0 &&
+         bihive_scene_set(scene, "arrow_colour", "#00ff00") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(pixel(one, 48, 22)[0] == 255 && pixel(other, 48, 22)[1] > pixel(other, 48, 22)[0] + 50);
+  EXPECT(memcmp(pixel(one, 48, 50), pixel(other, 48, 50), 4) == 0); /* not below */
+  EXPECT(bihive_scene_set(scene, "arrow_pivot", "middle") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(pixel(other, 48, 38)[1] > pixel(other, 48, 38)[0] + 50);
+  EXPECT_ERROR(bihive_scene_set(scene, "arrow_scale", "0"), "arrow_scale");
+  EXPECT(bihive_scene_set(scene, "arrows", "sx,sy,nowhere") == 0);
+  EXPECT_ERROR(bihive_render(scene, kWidth, kHeight, 1, 0, other), "nowhere");
+  for (size_t i = 0; i < COUNT(of_arrows); ++i) EXPECT(bihive_scene_set(scene, of_arrows[i], NULL) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) == 0);
   bihive_scene_free(scene);
 
   EXPECT_ERROR(bihive_scene_from_bytes("{", 1, "broken.json", NULL, &scene), "broken.json:1");
