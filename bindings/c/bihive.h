@@ -133,6 +133,15 @@ BIHIVE_API int bihive_bodies_closest(const bihive_bodies* bodies, const bihive_r
 BIHIVE_API int bihive_bodies_occluded(const bihive_bodies* bodies, const bihive_rays* rays, int threads,
                                       uint8_t* hidden);
 
+/* Every sphere and stick that ray i hits, by t, then as bihive_bodies_closest() orders equal ones; t is where the ray
+ * enters it (where it exits, if it starts inside). bihive_lists_spheres has the numbers of spheres and sticks,
+ * bihive_lists_kinds and bihive_lists_along what bihive_bodies_closest() says of each hit. */
+typedef struct bihive_lists bihive_lists;
+BIHIVE_API int bihive_bodies_all_hits(const bihive_bodies* bodies, const bihive_rays* rays, int threads,
+                                      bihive_lists** lists);
+BIHIVE_API const uint8_t* bihive_lists_kinds(const bihive_lists* lists); /* NULL: lists of spheres */
+BIHIVE_API const double* bihive_lists_along(const bihive_lists* lists);  /* NULL: lists of spheres */
+
 /* ---- Points ---- */
 
 /* The end point of a distance: a sphere's surface (negative inside), or its centre. */
@@ -151,7 +160,6 @@ BIHIVE_API int bihive_nearest_others(const bihive_tree* tree, const double* xyz,
                                      int threads, double* distances, int64_t* spheres);
 
 /* A list of spheres for each ray or point: those of number i are entries begin[i] to before begin[i + 1]. */
-typedef struct bihive_lists bihive_lists;
 BIHIVE_API const int64_t* bihive_lists_begin(const bihive_lists* lists);
 BIHIVE_API const int64_t* bihive_lists_spheres(const bihive_lists* lists);
 BIHIVE_API const double* bihive_lists_distances(const bihive_lists* lists); /* of rays: t; of contacts: areas */

@@ -14,6 +14,7 @@
 #include "c_progress.h"
 #include "c_ray_chunks.h"
 #include "c_spheres.h"
+#include "c_tree.h"
 
 // The tracer refers to the scene.
 struct bihive_bodies {
@@ -98,4 +99,55 @@ int bihive_bodies_occluded(const bihive_bodies* bodies, const bihive_rays* rays,
                         bodies->tracer->occluded(part, RayOrder::any, hidden + first);
                       });
   });
+}
+
+int bihive_bodies_all_hits(const bihive_bodies* bodies, const bihive_rays* rays, int threads, bihive_lists** lists) {
+  if (lists == nullptr) return failed("there is no place for the lists");
+  *lists = nullptr;
+  return guarded_query([&] {
+    if (bodies == nullptr || !are_ready(rays) || threads < 0)
+      return failed("bodies or rays are NULL, or a number is negative");
+    struct BodyHit {
+      std::int64_t ray;
+      double t;
+      HitBody body;
+    };
+    const Scene& scene = bodies->scene;
+    std::vector<std::vector<BodyHit>> of_part(static_cast<std::size_t>(Parts::of(rays->count, threads).count));
+    const int done = for_chunks(
+        scene.spheres.origin(), *rays, threads, [&](const RaySpan& part, std::int64_t first, std::int64_t number) {
+          std::vector<RayHit> found;
+          bodies->tracer->all_hits(part, RayOrder::any, found);
+          std::vector<BodyHit>& hits = of_part[static_cast<std::size_t>(number)];
+          hits.reserve(found.size());
+          for (const RayHit& hit : found)
+            hits.push_back({first + hit.ray, hit.t,
+                            body_of_hit(scene.spheres, scene.sticks, part.at(hit.ray), {hit.t, hit.sphere_id})});
+        });
+    if (done != kDone) return done;
+    auto made = std::make_unique<bihive_lists>();
+    made->begin.assign(static_cast<std::size_t>(rays->count) + 1, 0);
+    for (std::vector<BodyHit>& hits : of_part) {
+      stop_if_cancelled();
+      for (const BodyHit& hit : hits) {
+        ++made->begin[static_cast<std::size_t>(hit.ray) + 1];
+        made->spheres.push_back(hit.body.id);
+        made->distances.push_back(hit.t);
+        made->kinds.push_back(static_cast<std::uint8_t>(hit.body.kind));
+        made->along.push_back(hit.body.along);
+      }
+      std::vector<BodyHit>().swap(hits);
+    }
+    for (std::size_t i = 1; i < made->begin.size(); ++i) made->begin[i] += made->begin[i - 1];
+    *lists = made.release();
+    return kDone;
+  });
+}
+
+const uint8_t* bihive_lists_kinds(const bihive_lists* lists) {
+  return lists == nullptr || lists->kinds.size() < lists->spheres.size() ? nullptr : lists->kinds.data();
+}
+
+const double* bihive_lists_along(const bihive_lists* lists) {
+  return lists == nullptr || lists->along.size() < lists->spheres.size() ? nullptr : lists->along.data();
 }

@@ -23,4 +23,6 @@ struct bihive_tree {
 struct bihive_lists {
   std::vector<std::int64_t> begin, spheres;
   std::vector<double> distances;
+  std::vector<std::uint8_t> kinds{};  // of bodies
+  std::vector<double> along{};        // of bodies
 };

@@ -393,6 +393,8 @@ static void test_pictures(void) {
   const uint8_t colours[] = {255, 0, 0, 0, 0, 255};
   const char* json = "{\"bihive_scene\": 1, \"spheres\": [[0, 0, 0, 1]]}";
   const char* xyz = "2\ntwo\nO 0 0 0\nC 3 0 0\n";
+  const char* spins = "x,y,z,r,sx,sy,sz\n0,0,0,0.4,0,1,0\n";
+  const char* of_arrows[] = {"arrows", "arrow_scale", "arrow_radius", "arrow_colour", "arrow_pivot"};
   bihive_scene* scene = NULL;
 
   EXPECT(bihive_scene_methods(NULL) == NULL);
@@ -468,6 +470,27 @@ static void test_pictures(void) {
   if (scene != NULL) EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, one) == 0);
   bihive_scene_free(scene);
 
+  /* Arrows along columns: up, in a picture whose sphere is small, green where they are. */
+  EXPECT(bihive_scene_from_bytes(spins, strlen(spins), "spins.csv", "plain", &scene) == 0);
+  EXPECT(bihive_scene_set(scene, "eye", "0,0,20") == 0 && bihive_scene_set(scene, "look_at", "0,0,0") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, one) == 0);
+  EXPECT(bihive_scene_set(scene, "arrows", "sx,sy,sz") == 0 && bihive_scene_set(scene, "arrow_scale", "3") == 0);
+  EXPECT(bihive_scene_set(scene, "arrow_radius", "0.5") == 0 &&
+         bihive_scene_set(scene, "arrow_colour", "#00ff00") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(pixel(one, 48, 22)[0] == 255 && pixel(other, 48, 22)[1] > pixel(other, 48, 22)[0] + 50);
+  EXPECT(memcmp(pixel(one, 48, 50), pixel(other, 48, 50), 4) == 0); /* not below */
+  EXPECT(bihive_scene_set(scene, "arrow_pivot", "middle") == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(pixel(other, 48, 38)[1] > pixel(other, 48, 38)[0] + 50);
+  EXPECT_ERROR(bihive_scene_set(scene, "arrow_scale", "0"), "arrow_scale");
+  EXPECT(bihive_scene_set(scene, "arrows", "sx,sy,nowhere") == 0);
+  EXPECT_ERROR(bihive_render(scene, kWidth, kHeight, 1, 0, other), "nowhere");
+  for (size_t i = 0; i < COUNT(of_arrows); ++i) EXPECT(bihive_scene_set(scene, of_arrows[i], NULL) == 0);
+  EXPECT(bihive_render(scene, kWidth, kHeight, 1, 0, other) == 0);
+  EXPECT(memcmp(one, other, sizeof one) == 0);
+  bihive_scene_free(scene);
+
   EXPECT_ERROR(bihive_scene_from_bytes("{", 1, "broken.json", NULL, &scene), "broken.json:1");
   EXPECT(scene == NULL);
   EXPECT_ERROR(bihive_scene_new(places, radii, NULL, 2, "nonsense", &scene), "nonsense");
@@ -500,6 +523,25 @@ static void test_bodies(void) {
   EXPECT(kinds[4] == BIHIVE_NOTHING && ids[4] == -1); /* it ends before */
   EXPECT(bihive_bodies_occluded(bodies, &rays, 0, hidden) == 0);
   EXPECT(hidden[0] == 1 && hidden[1] == 1 && hidden[2] == 1 && hidden[3] == 0 && hidden[4] == 0);
+  {
+    bihive_lists* lists = NULL;
+    EXPECT(bihive_bodies_all_hits(bodies, &rays, 1, &lists) == 0);
+    {
+      const int64_t* const begin = bihive_lists_begin(lists);
+      const int64_t* const numbers = bihive_lists_spheres(lists);
+      const uint8_t* const kind = bihive_lists_kinds(lists);
+      EXPECT(begin[0] == 0 && begin[1] == 1 && begin[2] == 3 && begin[3] == 4 && begin[4] == 4 && begin[5] == 4);
+      EXPECT(kind[0] == BIHIVE_STICK && numbers[0] == 0 && bihive_lists_along(lists)[0] == 0.5);
+      /* The second ray meets the sphere, and the stick that begins in it. */
+      EXPECT(kind[1] == BIHIVE_SPHERE && numbers[1] == 0 && bihive_lists_distances(lists)[1] == 8);
+      EXPECT(kind[2] == BIHIVE_STICK && numbers[2] == 0 && bihive_lists_distances(lists)[2] == 8.75);
+      EXPECT(kind[3] == BIHIVE_STICK && numbers[3] == 1 && bihive_lists_distances(lists)[3] == t[2]);
+    }
+    bihive_lists_free(lists);
+    EXPECT_ERROR(bihive_bodies_all_hits(bodies, &rays, 1, NULL), "no place");
+    EXPECT_ERROR(bihive_bodies_all_hits(NULL, &rays, 1, &lists), "NULL");
+    EXPECT(lists == NULL);
+  }
   EXPECT_ERROR(bihive_bodies_closest(bodies, &rays, 1, t, NULL, ids, along), "no place");
   EXPECT_ERROR(bihive_bodies_occluded(bodies, NULL, 1, hidden), "NULL");
   bihive_bodies_free(bodies);

@@ -97,6 +97,29 @@ class Bonds(ProgramTest):
         self.assertEqual(self.succeed_json("info", "w.xyz")["bonds"], {"stated": 0, "orders": {}, "by_distance": 2})
         self.assertIsNone(self.succeed_json("info", "points.csv")["bonds"]["by_distance"])
 
+    def test_orders_of_a_file(self):
+        self.write("d.sdf", SDF.replace("O   0  0\n    0.96", "C   0  0\n    1.20").replace("0.0000 H   0  0\n   -0.24", "0.0000 O   0  0\n   -0.24")
+                   .replace("  3  1  0", "  3  2  0").replace("  1  2  1  0\n", "  1  2  2  0\n  1  3  1  0\n"))
+        draw = ["d.sdf", "-o", "a.png", *SIZE, "--style", "ball-and-stick"]
+        with_orders = {self.succeed_json("render", *draw, "--engine", engine)["picture_hash"] for engine in ("wide", "reference", "brute", "wide-brute")}
+        self.assertEqual(len(with_orders), 1)
+        without = self.succeed_json("render", *draw, "--no-bond-orders")
+        self.assertNotIn(without["picture_hash"], with_orders)
+        self.assertEqual(self.succeed_json("render", *draw, "--bonds", "distance")["picture_hash"], without["picture_hash"])
+        # Licorice draws them if it is asked to.
+        licorice = ["d.sdf", "-o", "a.png", *SIZE, "--style", "licorice"]
+        self.assertEqual(self.succeed_json("render", *licorice, "--no-bond-orders")["picture_hash"], self.succeed_json("render", *licorice)["picture_hash"])
+        drawn = self.succeed_json("render", *licorice, "--bond-orders")
+        self.assertNotEqual(drawn["picture_hash"], self.succeed_json("render", *licorice)["picture_hash"])
+        self.assertIs(drawn["settings"]["bond_orders"], True)
+        # Transparent, between atoms of different opacity, cut and copied: the same on every engine.
+        for more in (["--opacity", "0.4"], ["--select", "element O", "--opacity", "0.4"], ["--select", "all", "--clip", "plane:0,1,0,0"],
+                     ["--cell-vectors", "4,0,0,0,4,0,0,0,4", "--replicate", "2x1x1"]):
+            hashes = {self.succeed_json("render", *draw, *more, "--engine", engine)["picture_hash"] for engine in ("wide", "reference", "brute")}
+            self.assertEqual(len(hashes), 1, more)
+        self.assertIn("bonds of the file", self.fail_usage("render", "d.sdf", "-o", "a.png", *SIZE, "--bonds", "distance", "--bond-orders"))
+        self.assertIn("--bonds", self.fail_usage("render", "d.sdf", "-o", "a.png", *SIZE, "--bond-orders"))
+
     def test_bonds_across_the_cell(self):
         self.write("c.xyz", "2\n\nO 0.1 5 5\nC 9.1 5 5\n")
         cell = ["--cell-vectors", "10,0,0,0,10,0,0,0,10"]

@@ -43,6 +43,28 @@ class Convert(ProgramTest):
             numpy.load(self.path("a.npy"))[2], numpy.array([10.125, 0, 3, 1.39], dtype="float32")
         )
 
+    def test_molecules_keep_their_bonds(self):
+        head = "ethene\n\n\n  3  2  0  0  0  0            999 V2000\n"
+        self.write("e.sdf", head + "    0.0000    0.0000    0.0000 C   0  5\n    1.3400    0.0000    0.0000 C   0  0\n"
+                   "   -0.5000    0.9000    0.0000 H   0  0\n  1  2  2  0\n  1  3  1  0\nM  CHG  1   1  -1\nM  END\n$$$$\n")
+        bonds = self.succeed_json("info", "e.sdf")["bonds"]
+        self.assertEqual(bonds["orders"], {"single": 1, "double": 1})
+        for name in ("b.sdf", "b.mol", "b.mol2"):
+            self.succeed("convert", "e.sdf", "-o", name)
+            again = self.succeed_json("info", name)
+            self.assertEqual(again["bonds"], bonds, name)
+            self.assertEqual(again["title"], "ethene", name)
+            self.succeed("convert", name, "-o", "c.extxyz")
+            self.assertIn(b"-1", self.read("c.extxyz").splitlines()[2], name)
+        self.succeed("convert", "b.sdf", "-o", "c.sdf")
+        self.assertEqual(self.read("b.sdf"), self.read("c.sdf"))
+        # What no file states is found by distance.
+        done = self.succeed("convert", "a.pdb", "-o", "d.mol2")
+        self.assertIn("1 bond is found by distance", done)
+        self.assertEqual(self.succeed_json("info", "d.mol2")["bonds"], {"stated": 1, "orders": {}, "by_distance": None})
+        self.assertIn(b"2 CA 12.1 6.2 -6.5 C 1 ALA", self.read("d.mol2"))
+        self.assertIn("single", self.succeed("convert", "a.pdb", "-o", "d.sdf"))
+
     def test_a_scene_draws_the_same_picture(self):
         self.succeed("convert", "a.pdb", "-o", "a.json")
         for source, options in (("a.pdb", ["--style", "plain"]), ("a.json", [])):

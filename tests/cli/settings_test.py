@@ -60,12 +60,13 @@ class Table(ProgramTest):
                 # A part of something whose presence has a number of its own is set with it.
                 extra = {"fog": ["--fog", "0.5"], "outline": ["--outline", "1", "--line-unit", "px"]}.get(whole, []) if key and row["id"] not in ("fog",) else []
                 # Bonds are between atoms, and what is theirs is set with them.
-                of_bonds = row["id"] in ("bonds", "bond_reach", "stick_radius", "ball_scale")
+                of_bonds = row["id"] in ("bonds", "bond_reach", "bond_orders", "stick_radius", "ball_scale")
                 of_atoms = of_bonds or row["id"].startswith("hbond")
                 spheres = self.path("atoms.xyz" if of_atoms else "run.xyz" if row["id"].startswith("trail") else "hollow.csv" if row["id"] == "show_cavities" else "spheres.csv")
                 if of_bonds and row["id"] != "bonds":
-                    picture["bonds"] = "distance"
-                    extra = ["--bonds", "distance"]
+                    bonds = "auto" if row["id"] == "bond_orders" else "distance"
+                    picture["bonds"] = bonds
+                    extra = ["--bonds", bonds]
                 # The same for arrows, tubes, trails and hydrogen bonds.
                 for kind, on in (("arrows", "x,y,r"), ("trace", "mol"), ("trail", 1), ("hbonds", True)):
                     if row["id"].startswith(kind.rstrip("s") + "_"):

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "bihive/bih/traversal.h"
@@ -297,6 +298,37 @@ Hit brute_closest(const SphereSet& spheres, const StickSet& sticks, const Ray& r
   return best;
 }
 
+// Every sphere and every stick that the ray meets, by t, then id.
+std::vector<Hit> brute_all(const SphereSet& spheres, const StickSet& sticks, const Ray& ray) {
+  std::vector<Hit> all;
+  if (!is_valid(ray)) return all;
+  Ray of_spheres = ray;
+  of_spheres.leaves = left_sphere(spheres, sticks, ray.leaves, ray.inside);
+  const ScaledRay scaled(of_spheres, spheres);
+  for (std::int64_t id = 0; id < spheres.total_size(); ++id)
+    all.push_back({sphere_hit(scaled, spheres.stored_centre(id), spheres.stored_radius(id)), id});
+  const StickRay of = stick_ray(ray, spheres, sticks);
+  for (std::int64_t stick = 0; stick < sticks.total_size(spheres); ++stick) {
+    const StickHit hit = stick_hit(of, sticks.stored(spheres, stick));
+    all.push_back({hit.t, spheres.total_size() + half_of(stick, hit)});
+  }
+  all.erase(std::remove_if(all.begin(), all.end(), [](const Hit& hit) { return !(hit.t < kInfinity); }), all.end());
+  std::sort(all.begin(), all.end(),
+            [](const Hit& a, const Hit& b) { return std::tie(a.t, a.sphere_id) < std::tie(b.t, b.sphere_id); });
+  return all;
+}
+
+// `all`: of many rays; those of ray i must be the truths.
+void expect_all(const std::vector<RayHit>& all, std::int64_t ray, const std::vector<Hit>& truths) {
+  const auto is_before = [](const RayHit& hit, std::int64_t number) { return hit.ray < number; };
+  const auto first = std::lower_bound(all.begin(), all.end(), ray, is_before);
+  ASSERT_EQ(std::lower_bound(first, all.end(), ray + 1, is_before) - first, std::ptrdiff_t(truths.size()));
+  for (std::size_t k = 0; k < truths.size(); ++k) {
+    ASSERT_EQ(first[std::ptrdiff_t(k)].sphere_id, truths[k].sphere_id);
+    ASSERT_TRUE(same_bits(first[std::ptrdiff_t(k)].t, truths[k].t));
+  }
+}
+
 TEST(Sticks, TheTreeLosesNothing) {
   int on_sticks = 0;
   for (const test::World& world : test::degenerate_worlds()) {
@@ -337,12 +369,8 @@ TEST(Sticks, TheTreeLosesNothing) {
         ASSERT_EQ(hits.sphere_id[i], truths[i].sphere_id);
         ASSERT_TRUE(same_bits(hits.t[i], truths[i].t));
         ASSERT_EQ(hidden[i] != 0, truths[i].found());
-        const auto first = std::find_if(all.begin(), all.end(),
-                                        [&](const RayHit& hit) { return hit.ray == static_cast<std::int64_t>(i); });
-        ASSERT_EQ(first != all.end(), truths[i].found());
-        if (first != all.end()) {
-          ASSERT_EQ(first->sphere_id, truths[i].sphere_id);
-        }
+        const auto ray = static_cast<std::int64_t>(i);
+        ASSERT_NO_FATAL_FAILURE(expect_all(all, ray, brute_all(spheres, sticks, batch.span().at(ray))));
       }
     }
   }
@@ -374,6 +402,7 @@ TEST(Sticks, OfCopiesAreThoseOfAWholeSet) {
   for (const Engine kind : {Engine::reference, Engine::wide, Engine::brute}) {
     const Result<Tracer> tracer = Tracer::build(scene, kind, {}, 1);
     ASSERT_TRUE(tracer.ok());
+    RayBatch batch;
     for (int i = 0; i < 4000; ++i) {
       Ray ray;
       Vec3d from, to;
@@ -404,6 +433,7 @@ TEST(Sticks, OfCopiesAreThoseOfAWholeSet) {
           const StickHit hit = stick_hit(of, here);
           truth.keep_nearer(hit.t, few.total_size() + half_of(stick, hit));
         }
+      batch.push_back(ray);
       const Hit found = tracer->closest_hit(ray);
       ASSERT_EQ(found.sphere_id, truth.sphere_id) << i;
       ASSERT_TRUE(same_bits(found.t, truth.t));
@@ -413,6 +443,10 @@ TEST(Sticks, OfCopiesAreThoseOfAWholeSet) {
       ++on_sticks[half / 2 >= of_few->size() ? 1 : 0];
       ASSERT_EQ(shown_sphere(scene, truth.sphere_id) / few.size(), half / 2 / of_few->size());
     }
+    std::vector<RayHit> all;
+    tracer->all_hits(batch.span(), RayOrder::any, all);
+    for (std::int64_t i = 0; i < batch.size(); ++i)
+      ASSERT_NO_FATAL_FAILURE(expect_all(all, i, brute_all(few, *of_few, batch.span().at(i))));
   }
   EXPECT_GT(on_sticks[0], 100);
   EXPECT_GT(on_sticks[1], 1000);

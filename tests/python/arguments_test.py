@@ -198,7 +198,7 @@ class Arguments(ProgramTest):
         self.try_all(tree.occluded, rays)
 
     def test_every_public_name_is_tried(self):
-        tried = {"BodyHits", "BodyTree", "Spheres", "Sticks", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
+        tried = {"AllBodyHits", "BodyHits", "BodyTree", "Spheres", "Sticks", "Tree", "Picture", "Verdict", "View", "Page", "Orthographic", "Perspective", "Look", "Style", "ClosestHits", "HitDerivatives", "Hits", "Near", "Pairs", "Measures", "Contacts",
                  "again", "angle", "buried_area", "colour_map", "compare", "contacts", "convert", "dihedral", "distance", "film", "linear", "measure", "page", "porosity", "read", "render", "sasa", "save_page", "select", "stats",
                  "tune", "verify", "view", "volume", "widget"}
         errors = {name for name in bh.__all__ if inspect.isclass(getattr(bh, name)) and issubclass(getattr(bh, name), (Exception, Warning))}

@@ -69,6 +69,41 @@ class Bodies(unittest.TestCase):
         np.testing.assert_array_equal(first.t[beside], t[beside])
         np.testing.assert_array_equal(first.id[beside], i[beside])
 
+    def test_all_hits_are_those_of_each_body_alone(self):
+        far = bh.Spheres([[500.0, 0, 0]], radius=0.001)
+        tree = bh.BodyTree(self.spheres, self.sticks)
+        hits = tree.all_hits(self.origins, self.directions)
+        self.assertIsInstance(hits, bh.AllBodyHits)
+        expected = set()
+        for k in range(40):
+            t, _ = bh.Tree(self.spheres[[k]]).closest(self.origins, self.directions)
+            expected |= {(i, "sphere", k) for i in np.nonzero(np.isfinite(t))[0]}
+        along = {}
+        for k in range(30):
+            alone = bh.BodyTree(far, bh.Sticks(self.a[k], self.b[k], self.radii[k])).closest(self.origins, self.directions)
+            expected |= {(i, "stick", k) for i in np.nonzero(alone.kind == "stick")[0]}
+            along.update({(i, k): alone.along[i] for i in np.nonzero(alone.kind == "stick")[0]})
+        self.assertEqual(set(zip(hits.ray.tolist(), hits.kind.tolist(), hits.id.tolist())), expected)
+        self.assertEqual(len(hits.t), len(expected))
+        self.assertGreater(len(along), 50)
+        for i, kind, k, s in zip(hits.ray, hits.kind, hits.id, hits.along):
+            self.assertEqual(np.isnan(s), kind == "sphere")
+            if kind == "stick":
+                self.assertAlmostEqual(s, along[i, k], places=4)
+        # The first of each ray is the closest, and those of a ray ascend.
+        closest = tree.closest(self.origins, self.directions)
+        found = np.diff(hits.begin) > 0
+        np.testing.assert_array_equal(found, closest.kind != "nothing")
+        np.testing.assert_array_equal(hits.t[hits.begin[:-1][found]], closest.t[found])
+        np.testing.assert_array_equal(hits.id[hits.begin[:-1][found]], closest.id[found])
+        self.assertTrue(np.all((np.diff(hits.t) >= 0) | (np.diff(hits.ray) > 0)))
+        for engine in ("reference", "brute", "wide-brute"):
+            for one, other in zip(hits, bh.BodyTree(self.spheres, self.sticks, engine=engine).all_hits(self.origins, self.directions)):
+                np.testing.assert_array_equal(one, other)
+        # A segment inside a stick meets where it exits.
+        inside = bh.BodyTree(far, bh.Sticks([0.0, 0, 0], [4, 0, 0], 0.5)).all_hits([[[1, 0, 0], [1, 9, 0]]], [0, -1, 0], t_max=0.75)
+        self.assertEqual((inside.t.tolist(), inside.begin.tolist()), ([0.5], [0, 1, 1]))
+
     def test_a_segment_and_shapes(self):
         tree = bh.BodyTree(bh.Spheres([[9.0, 9, 9]], radius=1), bh.Sticks([0.0, 0, 0], [4, 0, 0], 0.5))
         hit = tree.closest([1, 9, 0], [0, -1, 0])

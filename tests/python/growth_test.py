@@ -59,7 +59,7 @@ def cases(folder):
     tree = bh.Tree(s, threads=2)
     options = {"size": (64, 48), "threads": 2, "samples": 1}
     picture = bh.render(s, **options)
-    ends = ("xyz", "extxyz", "csv", "npy", "ply")
+    ends = ("xyz", "extxyz", "csv", "npy", "ply", "sdf", "mol2")
     for end in ends:
         s.save(f"{folder}/read.{end}")
     bh.render(f"{folder}/read.xyz", **options).save(f"{folder}/figure.png")
@@ -93,7 +93,9 @@ def cases(folder):
         "BodyTree": lambda: bh.BodyTree(s, sticks, threads=2),
         "BodyTree.closest": lambda: bodies.closest(rays, rays),
         "BodyTree.occluded": lambda: bodies.occluded(rays, rays),
+        "BodyTree.all_hits": lambda: bodies.all_hits(rays, rays),
         "BodyHits": fields(bodies.closest(rays, rays)),
+        "AllBodyHits": fields(bodies.all_hits(rays, rays)),
         "Spheres.bonds": lambda: bh.Spheres(xyz, radius=0.05, bonds=np.arange(2000).reshape(-1, 2)).bonds,
         "Spheres.moved": lambda: s.moved(xyz),
         "Spheres.with_columns": lambda: s.with_columns({"more": xyz[:, 1]}),

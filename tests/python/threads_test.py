@@ -119,9 +119,9 @@ class Threads(ProgramTest):
 
     def test_bodies(self):
         tree = bh.BodyTree(spheres(), bh.Sticks([[0, 0, 0]], [[1, 1, 1]], 0.1), threads=2)
-        self.together({"closest": lambda: tree.closest(*RAYS), "occluded": lambda: tree.occluded(*RAYS)})
+        self.together({"closest": lambda: tree.closest(*RAYS), "occluded": lambda: tree.occluded(*RAYS), "all_hits": lambda: tree.all_hits(*RAYS)})
         nothing = np.full(len(RAYS[0]), np.inf), np.full(len(RAYS[0]), -1)
-        self.assertRaises(TypeError, bh.Tree(spheres())._core.bodies, *RAYS, *nothing)
+        self.assertRaises(TypeError, bh.Tree(spheres())._core.bodies, *RAYS, *nothing, None)
 
     def test_picture(self):
         picture = bh.render(spheres(), **SMALL)

@@ -51,7 +51,7 @@ std::vector<SpherePair> bonds(const std::vector<Atom>& list, double reach = 1.2)
 
 using Pairs = std::vector<SpherePair>;
 
-constexpr int kH = 1, kC = 6, kO = 8, kUnknown = 0;
+constexpr int kH = 1, kC = 6, kN = 7, kO = 8, kUnknown = 0;
 
 TEST(Bonds, of_two_waters) {
   // The hydrogen bond between them is 1.9 Å long, both hydrogen atoms of a molecule are 1.5 Å apart.
@@ -74,6 +74,16 @@ TEST(Bonds, reach_is_a_factor_of_the_sum_of_covalent_radii) {
 TEST(Bonds, of_hydrogen_go_to_the_nearest_atom) {
   EXPECT_EQ(bonds({{kC, 0, 0, 0}, {kH, 1.1, 0, 0}, {kC, 2.25, 0, 0}}), (Pairs{{0, 1}}));
   EXPECT_EQ(bonds({{kH, 0, 0, 0}, {kH, 0.74, 0, 0}}), (Pairs{{0, 1}}));
+}
+
+TEST(Bonds, of_hydrogen_go_to_another_element_where_one_is_near) {
+  // A water that was placed too close: its hydrogen atom is 0.66 Å from that of an amine.
+  EXPECT_EQ(bonds({{kN, 24.93, 24.95, 18.87},
+                   {kH, 25.66, 25.37, 18.33},
+                   {kO, 26.41, 25.61, 17.15},
+                   {kH, 25.60, 25.61, 17.72},
+                   {kH, 26.41, 26.43, 16.57}}),
+            (Pairs{{0, 1}, {2, 3}, {2, 4}}));
 }
 
 TEST(Bonds, between_atoms_in_one_place_or_of_unknown_element_there_are_none) {

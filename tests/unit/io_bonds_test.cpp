@@ -124,6 +124,28 @@ TEST(BondsOfFiles, struct_conn_of_mmcif) {
   EXPECT_TRUE(bonds_of(kCifAtoms, "a.cif").empty());
 }
 
+TEST(BondsOfFiles, components_of_mmcif_within_their_residues) {
+  const std::string head =
+      "data_T\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n_atom_site.label_alt_id\n"
+      "_atom_site.label_comp_id\n_atom_site.label_asym_id\n_atom_site.label_seq_id\n_atom_site.Cartn_x\n"
+      "_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.occupancy\n_atom_site.auth_seq_id\n"
+      "_atom_site.auth_asym_id\n";
+  const std::string atoms =
+      "1 C C1 . LIG A 1 0 0 0 1 1 X\n2 O O1 A LIG A 1 1.2 0 0 0.3 1 X\n3 O O1 B LIG A 1 1.3 0 0 0.7 1 X\n"
+      "4 N N1 B LIG A 1 0 1.4 0 0.7 1 X\n5 N N1 A LIG A 1 0 1.5 0 0.3 1 X\n6 C C1 . LIG A 2 5 0 0 1 2 X\n"
+      "7 O O1 . LIG A 2 6.2 0 0 1 2 X\n8 C C1 . ABC A 3 9 0 0 1 3 X\n9 O O1 . ABC A 3 9 2 0 1 3 X\n";
+  const std::string table =
+      "loop_\n_chem_comp_bond.comp_id\n_chem_comp_bond.atom_id_1\n_chem_comp_bond.atom_id_2\n"
+      "_chem_comp_bond.value_order\n_chem_comp_bond.pdbx_aromatic_flag\nLIG C1 O1 doub N\nLIG N1 O1 sing Y\n"
+      "LIG C1 H1 sing N\nXYZ C1 O1 sing N\n";
+  const StatedBonds bonds = bonds_of(head + atoms + table, "a.cif");
+  // Of the alternates those of location B stay, and so do their bonds: spheres C1, O1 B, N1 B, C1, O1, C1, O1.
+  EXPECT_EQ(bonds.list, (List{{0, 1, kDouble}, {1, 2, kAromatic}, {3, 4, kDouble}}));
+  EXPECT_FALSE(bonds.are_all);
+  // The table may come before the atoms.
+  EXPECT_EQ(bonds_of("data_T\n" + table + head.substr(7) + atoms, "a.cif").list, bonds.list);
+}
+
 TEST(BondsOfFiles, chemical_components) {
   const StatedBonds bonds = bonds_of(
       "data_X\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n_chem_comp_atom.type_symbol\n"

@@ -185,5 +185,76 @@ TEST(WriteSpheres, NumbersOfAnySizeComeBack) {
   }
 }
 
+// ---- Molecules ----
+
+SphereSet molecule(const std::vector<Vec3d>& places, const std::vector<std::uint8_t>& element) {
+  std::vector<double> x, y, z;
+  for (const Vec3d& at : places) {
+    x.push_back(at.x);
+    y.push_back(at.y);
+    z.push_back(at.z);
+  }
+  SphereSet spheres = SphereSet::from_world(x, y, z, std::vector<double>(x.size(), 1.5)).value();
+  spheres.attributes().element = element;
+  return spheres;
+}
+
+TEST(WriteMolecules, BondsOrdersAndPlacesComeBack) {
+  SphereSet spheres = molecule({{0.1, -1.25, 3}, {1.4321, 0, 1e-7}, {-99.9999, 5, 6}, {1, 2, 3}}, {6, 8, 7, 0});
+  StatedBonds& bonds = spheres.attributes().bonds;
+  bonds.list = {{0, 1, BondOrder::double_bond},
+                {0, 2, BondOrder::aromatic},
+                {1, 3, BondOrder::triple},
+                {2, 3, BondOrder::single}};
+  bonds.are_all = true;
+  spheres.attributes().numbers.push_back({"charge", {-1, 0, 2, 0}});
+  for (const bool in_columns : {false, true}) {
+    if (in_columns) {
+      SphereSet even = molecule({{0.1, -1.25, 3}, {1.4321, 0, 0}, {-99.9999, 5, 6}, {1, 2, 3}}, {6, 8, 7, 0});
+      even.attributes() = spheres.attributes();
+      spheres = even;
+    }
+    for (const auto& [format, name] : {std::pair{SphereFileFormat::sdf, "a.sdf"}, {SphereFileFormat::mol2, "a.mol2"}}) {
+      const WrittenSpheres written = write_spheres(spheres, format, "a title");
+      if (format == SphereFileFormat::sdf) {
+        EXPECT_THAT(written.bytes, HasSubstr(in_columns ? "V2000" : "V3000"));
+      }
+      const SphereFile again = read_text(written.bytes, name);
+      EXPECT_EQ(again.title, "a title");
+      EXPECT_EQ(again.spheres.attributes().bonds.list, bonds.list) << name;
+      EXPECT_TRUE(again.spheres.attributes().bonds.are_all);
+      EXPECT_EQ(again.spheres.attributes().element, spheres.attributes().element) << name;
+      ASSERT_NE(again.spheres.attributes().find_numbers("charge"), nullptr);
+      EXPECT_EQ(again.spheres.attributes().find_numbers("charge")->values, (std::vector<double>{-1, 0, 2, 0}));
+      for (std::int64_t id = 0; id < spheres.size(); ++id)
+        EXPECT_TRUE(same_bits(again.spheres.centre(id).x, spheres.centre(id).x) &&
+                    same_bits(again.spheres.centre(id).y, spheres.centre(id).y) &&
+                    same_bits(again.spheres.centre(id).z, spheres.centre(id).z))
+            << name << " " << id;
+    }
+  }
+  bonds.list[3].order = BondOrder::unknown;
+  EXPECT_THAT(write_spheres(spheres, SphereFileFormat::sdf).left_out.back(), HasSubstr("became single"));
+  EXPECT_THAT(write_spheres(spheres, SphereFileFormat::mol2).bytes, HasSubstr("4 3 4 un"));
+}
+
+TEST(WriteMolecules, ManyAtomsAndHostileTexts) {
+  std::vector<Vec3d> places;
+  for (int i = 0; i < 1000; ++i) places.push_back({double(i), 0, 0});
+  const SphereSet many = molecule(places, std::vector<std::uint8_t>(1000, 18));
+  const std::string sdf = write_spheres(many, SphereFileFormat::sdf, "$$$$").bytes;
+  EXPECT_THAT(sdf, HasSubstr("M  V30 COUNTS 1000 0"));
+  EXPECT_EQ(read_text(sdf, "a.sdf").spheres.size(), 1000);
+  SphereSet named = molecule({{0, 0, 0}, {1, 0, 0}}, {6, 6});
+  TextCollector names;
+  names.add("a b\n@<TRIPOS>BOND");
+  names.add("");
+  named.attributes().texts.push_back(names.take("name"));
+  const SphereFile again = read_text(write_spheres(named, SphereFileFormat::mol2, "@<TRIPOS>ATOM").bytes, "a.mol2");
+  EXPECT_EQ(again.spheres.size(), 2);
+  EXPECT_EQ(again.spheres.attributes().find_texts("name")->of(0), "a_b_@<TRIPOS>BOND");
+  EXPECT_EQ(again.spheres.attributes().find_texts("name")->of(1), "C");
+}
+
 }  // namespace
 }  // namespace bihive

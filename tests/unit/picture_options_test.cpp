@@ -37,7 +37,8 @@ TEST(PictureOptions, EachHasAnIdOfItsOwnAndSaysHowItWorksOnRanks) {
     // The default is to refuse. Sticks are between spheres of several ranks, and so are the walls of cavities; trees
     // are searched for whole sets.
     const bool is_of_several =
-        std::set<std::string>{"bonds", "bond_reach", "stick_radius", "ball_scale"}.contains(std::string(row.id)) ||
+        std::set<std::string>{"bonds", "bond_reach", "bond_orders", "no_bond_orders", "stick_radius", "ball_scale"}
+            .contains(std::string(row.id)) ||
         row.id.starts_with("arrow") || row.id.starts_with("link") || row.id.starts_with("trace") ||
         row.id.starts_with("trail") || row.id.starts_with("hbond") || row.id == "no_hbonds" ||
         row.id == "show_cavities" || row.id == "tune";

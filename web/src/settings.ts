@@ -16,6 +16,7 @@ export interface PictureSettings {
   line_unit: 'px' | 'picture' | 'pt';
   bonds: 'none' | 'distance' | 'file' | 'auto';
   bond_reach: number;
+  bond_orders: boolean;
   stick_radius: number;
   ball_scale: number;
   arrows: string;

@@ -10,6 +10,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/selection.h"
+#include "bihive/scene/bonds.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/looks.h"
@@ -34,6 +35,9 @@ const OutputFormat kOutputFormats[] = {
     {"csv", ".csv", "CSV", SphereFileFormat::csv},
     {"npy", ".npy", "NPY", SphereFileFormat::npy},
     {"ply", ".ply", "PLY", SphereFileFormat::ply},
+    {"sdf", ".sdf", "SDF", SphereFileFormat::sdf},
+    {"sdf", ".mol", "a MOL file", SphereFileFormat::sdf},
+    {"mol2", ".mol2", "MOL2", SphereFileFormat::mol2},
     {"scene", ".json", "a scene file", std::nullopt},
 };
 
@@ -42,9 +46,9 @@ const OutputFormat& output_format(const ConvertOptions& options) {
   for (const OutputFormat& format : kOutputFormats)
     if (options.format.empty() ? ending == format.ending : options.format == format.name) return format;
   if (options.output == kStandardStream)
-    fail_usage("the standard output has no ending: say --format xyz|extxyz|csv|npy|ply|scene");
-  fail_usage("the output's name must end in .xyz, .extxyz, .csv, .npy, .ply or .json",
-             "or say --format xyz|extxyz|csv|npy|ply|scene");
+    fail_usage("the standard output has no ending: say --format xyz|extxyz|csv|npy|ply|sdf|mol2|scene");
+  fail_usage("the output's name must end in .xyz, .extxyz, .csv, .npy, .ply, .sdf, .mol, .mol2 or .json",
+             "or say --format xyz|extxyz|csv|npy|ply|sdf|mol2|scene");
 }
 
 // Removes the spheres that the expression does not select.
@@ -110,7 +114,13 @@ void run_convert(const ConvertOptions& options) {
 
   WrittenSpheres written;
   if (format.format) {
+    const bool is_molecule = format.format == SphereFileFormat::sdf || format.format == SphereFileFormat::mol2;
+    // Readers of these formats look for no bonds by distance.
+    const std::int64_t added = is_molecule ? value_or_fail(state_bonds(input.scene.spheres, Sticks().reach)) : 0;
     written = write_spheres(input.scene.spheres, *format.format, input.title);
+    if (added > 0)
+      written.left_out.push_back(
+          fmt::format("{} bond{} found by distance", grouped(added), added == 1 ? " is" : "s are"));
     if (input.scene.spheres.has_images()) written.left_out.emplace_back("the copies along the cell");
   } else {
     written.bytes = scene_file(input);

@@ -22,7 +22,7 @@ Error               the base of all exceptions of this package
 """
 
 from ._bihive import __version__
-from ._bodies import BodyHits, BodyTree, Sticks
+from ._bodies import AllBodyHits, BodyHits, BodyTree, Sticks
 from ._camera import Look, Orthographic, Perspective, Style
 from ._colours import linear
 from ._compare import compare, tune
@@ -40,6 +40,7 @@ from ._view import Page, View, page, save_page, view
 from ._widget import widget
 
 __all__ = [
+    "AllBodyHits",
     "BodyHits",
     "BodyTree",
     "ClosestHits",

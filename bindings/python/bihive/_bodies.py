@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from ._types import Booleans, Floats, Ids
 
-__all__ = ["BodyHits", "BodyTree", "Sticks"]
+__all__ = ["AllBodyHits", "BodyHits", "BodyTree", "Sticks"]
 
 Array = np.ndarray[Any, Any]
 _KINDS = np.array(["nothing", "sphere", "stick"])
@@ -73,6 +73,21 @@ class BodyHits(NamedTuple):
     along: Floats
 
 
+class AllBodyHits(NamedTuple):
+    """Every hit of many rays: by ray, then by t; of equal ones spheres come first, then the smaller position. Arrays of one length.
+
+    ray: int64, the ray's position (of rays of several axes: in C order). t, kind, id, along: as those of BodyHits. begin: int64
+    (rays + 1): the hits of ray i are those from begin[i] to before begin[i + 1].
+    """
+
+    ray: Ids
+    t: Floats
+    kind: Any
+    id: Ids
+    along: Floats
+    begin: Ids
+
+
 class BodyTree:
     """Answers which spheres and sticks rays meet: as exact as Tree, for rays alone.
 
@@ -121,7 +136,7 @@ class BodyTree:
         """The nearest hit of each ray. Arguments as those of Tree.closest()."""
         rays, shape = segments_of(origins, directions, t_min, t_max)
         t, ids = self._core.closest((*rays, None, None), None, False, in_blocks_of(order))
-        kind, number, along = self._core.bodies(rays[0], rays[1], t, ids)
+        kind, number, along = self._core.bodies(rays[0], rays[1], t, ids, None)
         along[kind != 2] = np.nan
         return BodyHits(t.reshape(shape)[()], _KINDS[kind].reshape(shape)[()], number.reshape(shape)[()], along.reshape(shape)[()])
 
@@ -138,3 +153,25 @@ class BodyTree:
         rays, shape = segments_of(origins, directions, t_min, t_max)
         made: Booleans = self._core.occluded((*rays, None, None), None, False, in_blocks_of(order)).reshape(shape)[()]
         return made
+
+    def all_hits(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        *,
+        t_min: Optional[npt.ArrayLike] = None,
+        t_max: Optional[npt.ArrayLike] = None,
+    ) -> AllBodyHits:
+        """Every sphere and stick that each ray meets, once, where it enters (where it exits, if it starts inside). Arguments as those
+        of closest().
+
+        >>> tree = BodyTree(Spheres([[0.0, 0, 0]], radius=1), Sticks([[0, 0, 0]], [[4, 0, 0]], 0.25))
+        >>> hits = tree.all_hits([[0, 9, 0], [3, 9, 0]], [0, -1, 0])
+        >>> hits.kind.tolist(), hits.t.tolist(), hits.begin.tolist()
+        (['sphere', 'stick', 'stick'], [8.0, 8.75, 8.75], [0, 2, 3])
+        """
+        rays, _ = segments_of(origins, directions, t_min, t_max)
+        ray, t, ids, begin = self._core.all_hits((*rays, None, None), None, False)
+        kind, number, along = self._core.bodies(rays[0], rays[1], t, ids, ray)
+        along[kind != 2] = np.nan
+        return AllBodyHits(ray, t, _KINDS[kind], number, along, begin)

@@ -70,6 +70,7 @@ class RenderOptions(ReadOptions, total=False):
     line_unit: Optional[Literal["px", "picture", "pt"]]  # Unit of the widths of outlines, creases and cell edges: pixels, 1/720 of the picture's shorter side, or points in print (styles: picture, scene files: px)
     bonds: Optional[Literal["none", "distance", "file", "auto"]]  # Draw sticks between bonded atoms: those nearer than their covalent radii allow, those that the file states, or both (docs/pictures.md) (the style's)
     bond_reach: Optional[float]  # The longest bond, in sums of both atoms' covalent radii (1.2)
+    bond_orders: Optional[bool]  # Draw double and triple bonds of the file as parallel sticks, aromatic ones with a dashed one (the style's)
     stick_radius: Optional[float]  # Radius of the sticks in world units (0.15, or the style's)
     ball_scale: Optional[float]  # With bonds: multiplies all radii; 0: balls as thick as the sticks (1, or the style's)
     arrows: Optional[Union[str, npt.ArrayLike]]  # Draw an arrow on each sphere, along the vector that these attributes are; arithmetic too: fx/m,fy/m,fz/m

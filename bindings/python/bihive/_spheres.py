@@ -30,7 +30,7 @@ __all__ = ["Spheres", "read", "convert", "select", "stats", "colour_map"]
 
 Array = np.ndarray[Any, Any]
 _BUILT_IN = ["demo", "scenario1", "scenario2", "scenario3", "four-spheres"]
-_WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".ply": "ply"}
+_WRITTEN = {".xyz": "xyz", ".extxyz": "extxyz", ".csv": "csv", ".npy": "npy", ".ply": "ply", ".sdf": "sdf", ".mol": "sdf", ".mol2": "mol2"}
 _MAPS = [name + tail for name in _bihive.colour_maps() for tail in ("", "_r") if name != "okabe-ito" or not tail]
 _OF_SETS = ["x", "y", "z", "r", "radius", "index", "element", "type", "opacity", "colour"]
 _TYPES = (-(2**31), 2**31 - 1)
@@ -395,7 +395,7 @@ class Spheres:
     def save(self, path: Union[str, os.PathLike[str]], format: Optional[str] = None) -> list[str]:
         """Writes the spheres into a file of another format, whole or not at all, as ``bihive convert`` does.
 
-        format: "xyz", "extxyz", "csv", "npy" or "ply"; left out: by the ending. Returns what the format cannot hold, a
+        format: "xyz", "extxyz", "csv", "npy", "ply", "sdf" or "mol2"; left out: by the ending. Returns what the format cannot hold, a
         sentence each. Raises FileError (an OSError) if the file cannot be written.
 
         >>> import os, tempfile

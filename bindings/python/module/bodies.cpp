@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,9 +52,11 @@ std::shared_ptr<RayTree> build_body_tree(const SharedSpheres& spheres, const Vec
   return tree;
 }
 
-// Of each hit of `closest`: kind (BodyKind), the number of its sphere or stick, and the position along the stick.
+// Of each hit of `closest` or, with the `ray` of each, of `all_hits`: kind (BodyKind), the number of its sphere or
+// stick, and the position along the stick.
 py::tuple bodies_of_hits(const RayTree& tree, const Vectors& origin, const Vectors& direction,
-                         const py::array_t<double>& t, const py::array_t<std::int64_t>& id) {
+                         const py::array_t<double>& t, const py::array_t<std::int64_t>& id,
+                         const std::optional<py::array_t<std::int64_t>>& ray_of_hit) {
   if (!tree.scene) throw py::type_error("this tree has no sticks: BodyTree has");
   const py::ssize_t count = t.shape(0);
   py::array_t<std::uint8_t> kind(count);
@@ -61,10 +64,11 @@ py::tuple bodies_of_hits(const RayTree& tree, const Vectors& origin, const Vecto
   py::array_t<double> along(count);
   const SphereSet& spheres = tree.scene->spheres;
   for (py::ssize_t i = 0; i < count; ++i) {
+    const py::ssize_t row = ray_of_hit ? static_cast<py::ssize_t>(ray_of_hit->at(i)) : i;
     Ray ray;
     for (int axis = 0; axis < 3; ++axis) {
-      ray.origin[axis] = static_cast<float>(origin.at(i, axis) - spheres.origin()[axis]);
-      ray.direction[axis] = static_cast<float>(direction.at(i, axis));
+      ray.origin[axis] = static_cast<float>(origin.at(row, axis) - spheres.origin()[axis]);
+      ray.direction[axis] = static_cast<float>(direction.at(row, axis));
     }
     const HitBody body = body_of_hit(spheres, tree.scene->sticks, ray, {t.at(i), id.at(i)});
     kind.mutable_at(i) = static_cast<std::uint8_t>(body.kind);

@@ -504,16 +504,25 @@ py::array_t<float> colours_of(const py::object& values, const std::string& how, 
 // The bytes of a file of spheres, and what the format cannot hold. `format` is one of those that bihive/_spheres.py
 // knows.
 py::tuple written(const Spheres& spheres, const std::string& format) {
-  const std::map<std::string, SphereFileFormat> formats{{"xyz", SphereFileFormat::xyz},
-                                                        {"extxyz", SphereFileFormat::extended_xyz},
-                                                        {"csv", SphereFileFormat::csv},
-                                                        {"npy", SphereFileFormat::npy},
-                                                        {"ply", SphereFileFormat::ply}};
+  const std::map<std::string, SphereFileFormat> formats{
+      {"xyz", SphereFileFormat::xyz},  {"extxyz", SphereFileFormat::extended_xyz},
+      {"csv", SphereFileFormat::csv},  {"npy", SphereFileFormat::npy},
+      {"ply", SphereFileFormat::ply},  {"sdf", SphereFileFormat::sdf},
+      {"mol2", SphereFileFormat::mol2}};
   WrittenSpheres made;
+  Result<std::int64_t> added = std::int64_t{0};
   {
     const py::gil_scoped_release unlocked;
-    made = write_spheres(spheres.file.spheres, formats.at(format), spheres.file.title);
+    const SphereFileFormat asked_for = formats.at(format);
+    if (asked_for == SphereFileFormat::sdf || asked_for == SphereFileFormat::mol2) {
+      SphereSet with_bonds = spheres.file.spheres;
+      added = state_bonds(with_bonds, Sticks().reach);
+      if (added) made = write_spheres(with_bonds, asked_for, spheres.file.title);
+    } else {
+      made = write_spheres(spheres.file.spheres, asked_for, spheres.file.title);
+    }
   }
+  if (value_of(added) > 0) made.left_out.push_back("bonds by distance: " + std::to_string(*added));
   return py::make_tuple(py::bytes(made.bytes), made.left_out);
 }
 

@@ -266,15 +266,21 @@ py::array_t<bool> occluded(const RayTree& tree, const GivenRays& given, const Gi
 
 // Three arrays with an entry for each hit: ray, t, id; and the first entry of each ray, and their number.
 py::tuple every_hit(const RayTree& tree, const GivenRays& given, const GivenSpheres& exclude, bool see_images) {
-  const WideTree& wide = wide_tree_for(tree, "all_hits");
+  const WideTree* const wide = tree.scene ? nullptr : &wide_tree_for(tree, "all_hits");
   const RayArrays rays = rays_from(given);
   const std::int64_t most = std::min(rays_per_piece(tree, rays.count, RayOrder::any), kMostRaysOfHits);
   std::vector<std::vector<RayHit>> hits(static_cast<std::size_t>((rays.count + most - 1) / most));
   trace_all(
       tree, rays, most, see_images, exclude,
-      [&](const RaySpan& span, auto, auto piece) { all_hits(wide, span, hits[static_cast<std::size_t>(piece)]); },
+      [&](const RaySpan& span, auto, auto piece) {
+        std::vector<RayHit>& found = hits[static_cast<std::size_t>(piece)];
+        if (wide == nullptr)
+          tree.tracer->all_hits(span, RayOrder::any, found);
+        else
+          all_hits(*wide, span, found);
+      },
       [&](const WideTree&, const RaySpan& span, auto excluded, auto, auto piece) {
-        return tree.images->all_hits(wide, span, hits[static_cast<std::size_t>(piece)], excluded);
+        return tree.images->all_hits(*wide, span, hits[static_cast<std::size_t>(piece)], excluded);
       });
   std::size_t count = 0;
   for (const std::vector<RayHit>& some : hits) count += some.size();

@@ -16,6 +16,10 @@ Status check_ends(const SphereSet& spheres, const SpherePair& pair) {
   return Done{};
 }
 
+SpherePair spheres_of_halves(const OwnStick& stick) {
+  return {stick.sphere, stick.other < 0 ? stick.sphere : stick.other};
+}
+
 }  // namespace
 
 Status StickSet::set_radius(const SphereSet& spheres, double radius) {
@@ -89,8 +93,9 @@ Status StickSet::add(SphereSet& spheres, const std::vector<OwnStick>& sticks) {
   const Images::Shifts of_copies = spheres.images().shifts();
   double extent = 0;
   for (const OwnStick& one : sticks) {
-    if (one.sphere < 0 || one.sphere >= spheres.size())
-      return Error{"a stick belongs to sphere " + std::to_string(one.sphere) + ", which there is not", "", 0, 0, ""};
+    for (const std::int32_t id : spheres_of_halves(one))
+      if (id < 0 || id >= spheres.size())
+        return Error{"a stick belongs to sphere " + std::to_string(id) + ", which there is not", "", 0, 0, ""};
     if (!(one.opacity >= 0 && one.opacity <= 1))
       return Error{"the opacity of a stick must lie from 0 to 1", "", 0, 0, ""};
     for (const auto& [end, radius] : {std::pair(one.a, one.radius_a), std::pair(one.b, one.radius_b)}) {
@@ -114,7 +119,7 @@ Status StickSet::add(SphereSet& spheres, const std::vector<OwnStick>& sticks) {
   for (const OwnStick& one : sticks) {
     const auto stored = [&](double number) { return static_cast<float>(spheres.scale() * number); };
     added.push_back({to_float(spheres.scale() * one.a), to_float(spheres.scale() * one.b), stored(one.radius_a),
-                     stored(one.radius_b), one.sphere, one.colour.value_or(kColourOfSphere), one.opacity});
+                     stored(one.radius_b), spheres_of_halves(one), one.colour.value_or(kColourOfSphere), one.opacity});
     if (!(added.back().radius_a > 0 || added.back().radius_b > 0))
       return Error{"a stick must have a radius above 0, and not vanish beside the extent of the spheres", "", 0, 0, ""};
   }

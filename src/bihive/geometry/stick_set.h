@@ -5,8 +5,8 @@
 //
 // So has a pair of spheres of different opacity, because a stick has one opacity: its stubs meet in the middle.
 //
-// A set may also have sticks with ends and radii of their own, such as arrows. Each belongs to a sphere, whose
-// appearance it has, but for a colour and an opacity of its own.
+// A set may also have sticks with ends and radii of their own, such as arrows. Each belongs to a sphere, or each half
+// to one, whose appearance it has, but for a colour and an opacity of its own.
 //
 // Sticks have ids too, after those of all spheres: each half of a stick has one, because it looks like the sphere at
 // its end. With N = SphereSet::total_size(), the halves of stick k are N + 2 k, at its first end, and N + 2 k + 1. Both
@@ -48,9 +48,10 @@ struct OwnStick {
   std::int32_t sphere = 0;           ///< to which it belongs
   std::optional<Vec3f> colour = {};  ///< linear RGB; unset: that of the sphere
   float opacity = 1;                 ///< 0 to 1: multiplies that of the sphere
+  std::int32_t other = -1;           ///< to which its second half belongs; below 0: the same sphere
 };
 
-/// 8 bytes for each stick, 20 for a stub, 52 for one with ends of its own. The spheres are not kept: queries get them.
+/// 8 bytes for each stick, 20 for a stub, 56 for one with ends of its own. The spheres are not kept: queries get them.
 class StickSet {
  public:
   StickSet() = default;
@@ -90,7 +91,8 @@ class StickSet {
   std::int64_t sphere_at(const SphereSet& spheres, std::int64_t half) const {
     const std::int64_t copy = half < 2 * size() ? 0 : half / 2 / size();
     const std::int64_t stick = half / 2 - copy * size();
-    if (const Own* const own = own_at(stick)) return own->sphere + copy * spheres.size();
+    if (const Own* const own = own_at(stick))
+      return own->spheres[static_cast<std::size_t>(half % 2)] + copy * spheres.size();
     const SpherePair& pair = pairs_[static_cast<std::size_t>(stick)];
     const std::int32_t stored = half % 2 == 0 || pair[1] < 0 ? pair[0] : pair[1];
     return stored + copy * spheres.size();
@@ -153,13 +155,13 @@ class StickSet {
   struct Own {
     Vec3f a, b;
     float radius_a, radius_b;
-    std::int32_t sphere;
+    SpherePair spheres;  // of each half
     Vec3f colour;
     float opacity;
 
     friend bool operator==(const Own& one, const Own& other) {
       return one.a == other.a && one.b == other.b && one.radius_a == other.radius_a && one.radius_b == other.radius_b &&
-             one.sphere == other.sphere && one.colour == other.colour && one.opacity == other.opacity;
+             one.spheres == other.spheres && one.colour == other.colour && one.opacity == other.opacity;
     }
   };
 

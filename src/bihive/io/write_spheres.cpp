@@ -14,6 +14,7 @@
 #include "bihive/io/elements.h"
 #include "bihive/io/npy.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/io/write_molecules.h"
 
 namespace bihive {
 namespace {
@@ -267,6 +268,8 @@ std::string csv_field(const std::string& text) {
 }
 
 WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format, std::string_view title) {
+  if (format == SphereFileFormat::sdf) return write_sdf(spheres, title);
+  if (format == SphereFileFormat::mol2) return write_mol2(spheres, title);
   ColumnsOut table(spheres, format);
   if (format == SphereFileFormat::npy) {
     WrittenSpheres written = as_npy(spheres);

@@ -144,10 +144,12 @@ ChosenSticks choose_sticks(const PictureRequest& request, const Scene& scene, co
   request.picture.apply_to(picture);
   const Sticks& bonds = picture.sticks;
   const bool has_bonds = bonds.bonds != Bonds::none;
-  refuse_settings(request, has_bonds, {"bond_reach", "stick_radius", "ball_scale"}, "bonds",
+  refuse_settings(request, has_bonds, {"bond_reach", "bond_orders", "stick_radius", "ball_scale"}, "bonds",
                   "add " + setting_name("bonds") + " auto");
   if (bonds.bonds == Bonds::file && request.picture.has("bond_reach"))
     fail_setting("bond_reach", " is for bonds by distance", "add " + setting_name("bonds") + " auto");
+  if (bonds.bonds == Bonds::distance && bonds.orders && request.picture.has("bond_orders"))
+    fail_setting("bond_orders", " is for bonds of the file", "add " + setting_name("bonds") + " auto");
   refuse_distributed(whole, has_bonds, "bonds", " are not found between", "add " + setting_name("bonds") + " none");
 
   const HydrogenBonds& hydrogen_bonds = picture.hydrogen_bonds;

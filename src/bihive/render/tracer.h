@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bihive/base/result.h"
 #include "bihive/bih/tree.h"
@@ -86,6 +87,11 @@ class Tracer {
   /// Many rays at a time: much faster with the wide engine (wide/queries.h has the figures). Hit i belongs to ray i.
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const;
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
+
+  /// Every sphere and stick that each ray meets, once, by ray, then by t, then by id. `found` is cleared first. t is
+  /// where the ray enters the body, or exits it if its segment begins inside: where closest_hit() of this body alone
+  /// would be.
+  void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
   /// The hits of a camera's rays through the centres of a tile's pixels, row by row: hit i is that of pixel (x0 + i %
   /// width, y0 + i / width). The tile must lie inside the picture of `pixels`.

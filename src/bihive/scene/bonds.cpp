@@ -16,6 +16,7 @@
 #include "bihive/base/watch.h"
 #include "bihive/geometry/lattice.h"
 #include "bihive/io/elements.h"
+#include "bihive/scene/bond_orders.h"
 #include "bihive/scene/looks.h"
 #include "bihive/scene/near_pairs.h"
 
@@ -53,15 +54,20 @@ Result<std::vector<ImagePair>> find_by_distance(const SphereSet& spheres, double
   if (!found) return found.error();
   const std::vector<NearPair>& near = *found;
 
-  // Find the nearest one of each hydrogen atom.
+  // Find the nearest one of each hydrogen atom: others of hydrogen count where there is nothing else.
   std::vector<std::int64_t> nearest(atoms.size(), -1);
   const auto is_hydrogen = [&](std::int32_t id) { return element[static_cast<std::size_t>(id)] == kHydrogen; };
+  const auto is_of_two = [&](const NearPair& pair) {
+    return is_hydrogen(pair.points[0]) && is_hydrogen(pair.points[1]);
+  };
+  const auto is_nearer = [&](const NearPair& a, const NearPair& b) {
+    return std::pair(is_of_two(a), a.distance_squared) < std::pair(is_of_two(b), b.distance_squared);
+  };
   for (std::size_t k = 0; k < near.size(); ++k)
     for (const std::int32_t id : near[k].points) {
       if (!is_hydrogen(id)) continue;
       std::int64_t& best = nearest[static_cast<std::size_t>(id)];
-      if (best < 0 || near[k].distance_squared < near[static_cast<std::size_t>(best)].distance_squared)
-        best = static_cast<std::int64_t>(k);
+      if (best < 0 || is_nearer(near[k], near[static_cast<std::size_t>(best)])) best = static_cast<std::int64_t>(k);
     }
 
   std::vector<ImagePair> bonds;
@@ -114,6 +120,18 @@ Result<std::vector<ImagePair>> automatic_bonds(const SphereSet& spheres, double 
   return both;
 }
 
+Result<std::int64_t> state_bonds(SphereSet& spheres, double reach, int threads) {
+  StatedBonds& stated = spheres.attributes().bonds;
+  if (stated.are_all || !knows_elements(spheres)) return std::int64_t{0};
+  const Result<std::vector<ImagePair>> found = bonds_by_distance(spheres, reach, threads);
+  if (!found) return found.error();
+  const auto before = static_cast<std::int64_t>(stated.list.size());
+  for (const ImagePair& bond : *found) stated.add(bond.pair[0], bond.pair[1]);
+  stated.put_in_order();
+  stated.are_all = !stated.empty();
+  return static_cast<std::int64_t>(stated.list.size()) - before;
+}
+
 Status scale_balls(Scene& scene, const Sticks& sticks) {
   const bool needs_elements = sticks.bonds == Bonds::distance ||
                               (sticks.bonds == Bonds::automatic && !scene.spheres.attributes().bonds.are_all);
@@ -127,6 +145,25 @@ Status scale_balls(Scene& scene, const Sticks& sticks) {
   return scaled ? Status(Done{}) : Status(scaled.error());
 }
 
+namespace {
+
+// Of bonds in ascending order those that the file states have an order.
+std::vector<BondOrder> orders_of(const SphereSet& spheres, const std::vector<ImagePair>& bonds) {
+  const std::vector<StatedBond>& list = spheres.attributes().bonds.list;
+  std::vector<BondOrder> orders(bonds.size(), BondOrder::unknown);
+  if (std::none_of(list.begin(), list.end(), [](const StatedBond& one) { return has_parallel_sticks(one.order); }))
+    return orders;
+  const std::vector<ImagePair> stated = bonds_of_file(spheres);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < bonds.size(); ++i) {
+    while (k < stated.size() && is_before(stated[k], bonds[i])) ++k;
+    if (k < stated.size() && stated[k] == bonds[i]) orders[i] = list[k].order;
+  }
+  return orders;
+}
+
+}  // namespace
+
 Status find_bonds(Scene& scene, const Sticks& sticks, int threads) {
   Result<std::vector<ImagePair>> bonds = sticks.bonds == Bonds::file ? bonds_of_file(scene.spheres)
                                          : sticks.bonds == Bonds::automatic
@@ -139,8 +176,18 @@ Status find_bonds(Scene& scene, const Sticks& sticks, int threads) {
   std::function<bool(const SpherePair&)> is_parted;
   if (lets_light_through(scene))
     is_parted = [&scene](const SpherePair& pair) { return !are_equally_clear(scene, pair[0], pair[1]); };
+  std::vector<OwnStick> parallel;
+  if (sticks.orders && sticks.bonds != Bonds::distance) {
+    const std::vector<BondOrder> orders = orders_of(scene.spheres, *bonds);
+    parallel = parallel_sticks(scene.spheres, *bonds, orders, sticks.radius, is_parted);
+    std::size_t to = 0;
+    for (std::size_t k = 0; k < bonds->size(); ++k)
+      if (!has_parallel_sticks(orders[k])) (*bonds)[to++] = (*bonds)[k];
+    bonds->resize(to);
+  }
   Result<StickSet> made = StickSet::between(scene.spheres, *bonds, sticks.radius, is_parted);
   if (!made) return made.error();
+  if (Status status = made->add(scene.spheres, parallel); !status) return status;
   scene.sticks = std::move(*made);
   return check_sticks(scene);
 }

@@ -43,6 +43,15 @@ Result<Spread> spread_out(const std::vector<Vec3d>& points, const std::vector<do
   const std::size_t count = spread.at.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3d at = spread.at[i];
+    // Deep inside the cell all images are too far away: most points of a large one.
+    const Vec3d share = lattice->shares(at);
+    bool is_deep = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double margin = longest * lattice->share_of_length(k) * (1 + 0x1p-10) + 0x1p-10;
+      const double along = share[static_cast<int>(k)];
+      is_deep = is_deep && (lattice->share_of_length(k) == 0 || (along > margin && along < 1 - margin));
+    }
+    if (is_deep) continue;
     if (!lattice->holds(points[static_cast<std::size_t>(spread.point[i])])) continue;
     // Counts that bring the cell near the point: the opposite ones bring the point near the cell.
     const Lattice::Range range = lattice->images_within(longest, at, {0, 0, 0}, {1, 1, 1}, largest);

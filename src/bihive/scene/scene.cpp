@@ -16,11 +16,14 @@ std::vector<PointLight> local_lights(const Scene& scene) {
 
 Status check_sticks(const Scene& scene) {
   if (scene.sticks.empty() || !lets_light_through(scene)) return Done{};
-  for (const SpherePair& pair : scene.sticks.pairs())
-    if (pair[1] >= 0 && !are_equally_clear(scene, pair[0], pair[1]))
-      return Error{"a stick has one opacity, and that between the spheres " + std::to_string(input_id(scene, pair[0])) +
-                       " and " + std::to_string(input_id(scene, pair[1])) + " would have two",
+  for (std::int64_t stick = 0; stick < scene.sticks.size(); ++stick) {
+    const std::int64_t one = scene.sticks.sphere_at(scene.spheres, 2 * stick);
+    const std::int64_t other = scene.sticks.sphere_at(scene.spheres, 2 * stick + 1);
+    if (one != other && !are_equally_clear(scene, one, other))
+      return Error{"a stick has one opacity, and that between the spheres " + std::to_string(input_id(scene, one)) +
+                       " and " + std::to_string(input_id(scene, other)) + " would have two",
                    "", 0, 0, "give them the same, or make the stick of two parts"};
+  }
   return Done{};
 }
 

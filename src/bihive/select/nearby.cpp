@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kMostPointsInLeaf = 8;
 // Halves of 2^32 points end after 32 levels. A walk keeps at most one box a level.
-constexpr std::size_t kMostLevels = 64;
+constexpr std::size_t kMostLevelsOfPoints = 64;
 
 double squared_distance(Vec3d a, Vec3d b) {
   const Vec3d d = a - b;
@@ -108,7 +108,7 @@ bool NearbyPoints::any_within(Vec3d centre, double distance) const {
 // Calls is_near(point) for points, among them every one within the distance, until it returns true.
 template <class IsNear>
 bool NearbyPoints::any_point(Vec3d centre, double distance_squared, const IsNear& is_near) const {
-  std::array<std::uint32_t, kMostLevels> waiting;
+  std::array<std::uint32_t, kMostLevelsOfPoints> waiting;
   std::size_t waiting_count = 0;
   waiting[waiting_count++] = 0;
   while (waiting_count > 0) {

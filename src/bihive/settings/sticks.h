@@ -15,6 +15,7 @@ struct Sticks {
   Bonds bonds = Bonds::none;
   double reach = 1.2;     ///< above 0, at most kMostBondReach
   double radius = 0.15;   ///< world units (Å), above 0
+  bool orders = false;    ///< double, triple and aromatic bonds of the file are parallel sticks (scene/bond_orders.h)
   double ball_scale = 1;  ///< multiplies all radii if there are bonds, >= 0; 0: all become that of the sticks
 };
 

@@ -152,6 +152,10 @@ void Tracer::occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occl
   rays_->occluded(rays, order, is_occluded);
 }
 
+void Tracer::all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const {
+  rays_->all_hits(rays, order, found);
+}
+
 void Tracer::closest_hits(const PixelRays& pixels, const Tile& tile, const HitSpan& hits) const {
   // Trace a band of blocks at a time, and store the hits at the places of their pixels.
   const int width = tile.x1 - tile.x0;

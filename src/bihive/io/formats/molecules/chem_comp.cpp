@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bihive/base/parse_number.h"
+#include "bihive/io/formats/molecules/cif_connections.h"
 #include "bihive/io/formats/molecules/cif_elements.h"
 #include "bihive/io/text/text_scanner.h"
 
@@ -53,13 +54,6 @@ const PlaceTags* best_places(gemmi::cif::Block& block) {
   return best;
 }
 
-BondOrder order_of(const std::string& value, bool is_aromatic) {
-  if (is_aromatic || value.rfind("arom", 0) == 0) return BondOrder::aromatic;
-  if (value.rfind("sing", 0) == 0) return BondOrder::single;
-  if (value.rfind("doub", 0) == 0) return BondOrder::double_bond;
-  return value.rfind("trip", 0) == 0 ? BondOrder::triple : BondOrder::unknown;
-}
-
 // Bonds go by the names of the atoms.
 void take_bonds(gemmi::cif::Block& block, const NamedTexts& names, StatedBonds& bonds) {
   enum { kOne, kOther, kOrder, kAromatic };
@@ -71,8 +65,9 @@ void take_bonds(gemmi::cif::Block& block, const NamedTexts& names, StatedBonds& 
   for (gemmi::cif::Table::Row row : table) {
     const auto one = sphere_of.find(row.str(kOne)), other = sphere_of.find(row.str(kOther));
     if (one == sphere_of.end() || other == sphere_of.end()) continue;
-    const std::string order = row.has2(kOrder) ? lower_case(row.str(kOrder)) : "";
-    bonds.add(one->second, other->second, order_of(order, row.has2(kAromatic) && row.str(kAromatic) == "Y"));
+    const std::string order = row.has2(kOrder) ? row.str(kOrder) : "";
+    bonds.add(one->second, other->second,
+              order_of_component_bond(order, row.has2(kAromatic) && row.str(kAromatic) == "Y"));
   }
   bonds.are_all = !bonds.empty();
 }

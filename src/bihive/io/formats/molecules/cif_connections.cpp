@@ -1,5 +1,6 @@
 #include "bihive/io/formats/molecules/cif_connections.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -7,8 +8,10 @@
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "bihive/base/parse_number.h"
+#include "bihive/io/residue_runs.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -115,6 +118,81 @@ void add_connections(const std::vector<CifRow>& rows, const std::string& marks, 
   }
   for (const Bond& bond : bonds)
     add_bond(spheres, position_of[bond.one.name], position_of[bond.other.name], bond.order);
+}
+
+BondOrder order_of_component_bond(const std::string& value_order, bool is_aromatic) {
+  const std::string value = lower_case(value_order);
+  if (is_aromatic || value.starts_with("arom")) return BondOrder::aromatic;
+  if (value.starts_with("sing")) return BondOrder::single;
+  if (value.starts_with("doub")) return BondOrder::double_bond;
+  return value.starts_with("trip") ? BondOrder::triple : BondOrder::unknown;
+}
+
+void add_component_bonds(const std::vector<CifRow>& rows, const std::string& marks, RawSpheres& spheres) {
+  struct BondOfNames {
+    std::int32_t one, other;  // positions of names in the column
+    BondOrder order;
+  };
+  const SphereAttributes& attributes = spheres.attributes;
+  const NamedTexts* const names = attributes.find_texts("name");
+  const NamedTexts* const residues = attributes.find_texts("resname");
+  const NamedNumbers* const number = attributes.find_numbers("resid");
+  if (names == nullptr || residues == nullptr || number == nullptr) return;
+
+  // Find the components and names of the rows in the columns.
+  const auto positions = [](const NamedTexts& column) {
+    std::unordered_map<std::string, std::int32_t> position_of;
+    for (std::size_t k = 0; k < column.texts.size(); ++k)
+      position_of.emplace(column.texts[k], static_cast<std::int32_t>(k));
+    return position_of;
+  };
+  std::unordered_map<std::string, std::int32_t> position_of_name, position_of_residue;
+  std::vector<std::vector<BondOfNames>> bonds_of(residues->texts.size());
+  bool any = false;
+  for (const CifRow& row : rows) {
+    const auto item = [&row](const char* name) {
+      const auto found = row.find(std::string("_chem_comp_bond.") + name);
+      return found == row.end() ? std::string() : found->second;
+    };
+    const std::string component = item("comp_id");
+    if (component.empty()) continue;
+    if (position_of_residue.empty()) {
+      position_of_residue = positions(*residues);
+      position_of_name = positions(*names);
+    }
+    const auto of = position_of_residue.find(component);
+    const auto one = position_of_name.find(item("atom_id_1")), other = position_of_name.find(item("atom_id_2"));
+    if (of == position_of_residue.end() || one == position_of_name.end() || other == position_of_name.end()) continue;
+    bonds_of[static_cast<std::size_t>(of->second)].push_back(
+        {one->second, other->second, order_of_component_bond(item("value_order"), item("pdbx_aromatic_flag") == "Y")});
+    any = true;
+  }
+  if (!any) return;
+
+  // Go through the residues.
+  const std::vector<std::int32_t> run =
+      residue_runs(attributes, spheres.size(), [number](std::size_t i) { return number->values[i]; });
+  std::vector<std::pair<std::int32_t, std::int32_t>> atoms;  // name and position
+  for (std::size_t begin = 0, end = 0; begin < spheres.size(); begin = end) {
+    while (end < spheres.size() && run[end] == run[begin]) ++end;
+    const std::vector<BondOfNames>& bonds = bonds_of[static_cast<std::size_t>(residues->text_of_sphere[begin])];
+    if (bonds.empty()) continue;
+    atoms.clear();
+    for (std::size_t i = begin; i < end; ++i)
+      atoms.emplace_back(names->text_of_sphere[i], static_cast<std::int32_t>(i));
+    std::sort(atoms.begin(), atoms.end());
+    const auto first_named = [&atoms](std::int32_t name) {
+      return std::lower_bound(atoms.begin(), atoms.end(), std::pair(name, std::int32_t{0}));
+    };
+    for (const BondOfNames& bond : bonds)
+      for (auto one = first_named(bond.one); one != atoms.end() && one->first == bond.one; ++one)
+        for (auto other = first_named(bond.other); other != atoms.end() && other->first == bond.other; ++other) {
+          const char mark = marks[static_cast<std::size_t>(one->second)];
+          const char of_other = marks[static_cast<std::size_t>(other->second)];
+          if (mark == 0 || of_other == 0 || mark == of_other)
+            spheres.attributes.bonds.add(one->second, other->second, bond.order);
+        }
+  }
 }
 
 }  // namespace bihive

@@ -13,7 +13,8 @@ namespace {
 // The tag in lower case if it is of one of the tables, else nothing.
 std::string field_of(std::string_view tag) {
   const std::string lower = lower_case(tag);
-  for (const char* const table : {"_pdbx_struct_assembly_gen.", "_pdbx_struct_oper_list.", "_struct_conn."})
+  for (const char* const table :
+       {"_pdbx_struct_assembly_gen.", "_pdbx_struct_oper_list.", "_struct_conn.", "_chem_comp_bond."})
     if (lower.rfind(table, 0) == 0) return lower;
   return lower == "_struct.title" || lower == "_entry.id" ? lower : std::string();
 }

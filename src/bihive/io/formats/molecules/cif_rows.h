@@ -15,7 +15,8 @@ namespace bihive {
 using CifRow = std::unordered_map<std::string, std::string>;
 
 /// Takes tags and values in the order in which the grammar meets them, and keeps the rows of _pdbx_struct_assembly_gen,
-/// _pdbx_struct_oper_list and _struct_conn, _struct.title and _entry.id, whether they stand in loops or as pairs.
+/// _pdbx_struct_oper_list, _struct_conn and _chem_comp_bond, _struct.title and _entry.id, whether they stand in loops
+/// or as pairs.
 class CifRows {
  public:
   void begin_loop();

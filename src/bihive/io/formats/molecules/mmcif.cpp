@@ -179,6 +179,7 @@ class AtomSites {
     if (!spheres_.assemblies.parts.empty())
       spheres_.attributes.texts.push_back(printable_texts(label_chains_.take(std::string(kAssemblyChains))));
     add_connections(tables_.rows(), marks_, spheres_);
+    add_component_bonds(tables_.rows(), marks_, spheres_);
     alternates_.remove_from(spheres_);
     return std::move(spheres_);
   }
