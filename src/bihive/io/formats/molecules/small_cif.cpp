@@ -12,6 +12,7 @@
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/formats/molecules/cif.h"
 #include "bihive/io/formats/molecules/cif_elements.h"
+#include "bihive/io/formats/molecules/cif_errors.h"
 #include "bihive/io/formats/molecules/cif_symmetry.h"
 #include "bihive/io/formats/molecules/listed_images.h"
 #include "bihive/io/text/text_scanner.h"
@@ -268,7 +269,7 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
     namespace cif = gemmi::cif;
     cif::Document document;
     tao::pegtl::memory_input<> input(text.data(), text.size(), file);
-    tao::pegtl::parse<cif::rules::file, cif::Action, cif::Errors>(input, document);
+    tao::pegtl::parse<cif::rules::file, cif::Action, CifErrors>(input, document);
     std::int64_t frames = 0;
     cif::Block* wanted = nullptr;
     for (cif::Block& block : document.blocks) {
@@ -284,10 +285,8 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
       if (frames > 1) spheres->rules.push_back("frame: the data block " + quote(wanted->name));
     }
     return spheres;
-  } catch (const tao::pegtl::parse_error& e) {
-    const tao::pegtl::position at = e.positions().empty() ? tao::pegtl::position(1, 1, 1, file) : e.positions().front();
-    return Error{"this is no CIF: " + std::string(e.message()), file, static_cast<std::int64_t>(at.line),
-                 static_cast<std::int64_t>(at.column), ""};
+  } catch (const CifFault& fault) {
+    return fault.in(file);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
