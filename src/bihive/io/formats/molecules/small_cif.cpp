@@ -16,6 +16,7 @@
 #include "bihive/io/formats/molecules/cif_symmetry.h"
 #include "bihive/io/formats/molecules/listed_images.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -40,6 +41,7 @@ class CrystalReader {
     if (Status cell = read_cell(); !cell) return cell.error();
     if (Status operations = read_operations(); !operations) return operations.error();
     read_formula();
+    read_title();
     if (Status sites = read_sites(); !sites) return sites.error();
     finish();
     return std::move(spheres_);
@@ -104,6 +106,17 @@ class CrystalReader {
       elements_.add_formula(gemmi::cif::as_string(*formula));
     for (const std::string& symbol : block_.find_values("_atom_type_symbol"))
       elements_.add_type_symbol(gemmi::cif::as_string(symbol));
+  }
+
+  // The name of the substance, else the title of the publication.
+  void read_title() {
+    for (const char* const tag :
+         {"_chemical_name_common", "_chemical_name_mineral", "_chemical_name_systematic", "_publ_section_title"}) {
+      const std::string* const value = block_.find_value(tag);
+      if (value == nullptr || gemmi::cif::is_null(*value)) continue;
+      spheres_.title = title_from(gemmi::cif::as_string(*value));
+      if (!spheres_.title.empty()) return;
+    }
   }
 
   Status read_sites() {
