@@ -20,6 +20,7 @@ import { document_of, has_state, link_of, reading_of, state_from, state_of, type
 import { data_inside, data_of_page, escaped, is_one_file, is_page, packed_module, page_with, type Inside } from './one_file';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
+import { Preview } from './preview';
 import { PlayerBar } from './player';
 import { listen_for_pointers } from './pointer';
 import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Move, Reading, Settings, Source } from './protocol';
@@ -217,6 +218,7 @@ const engine = new Engine(
     film: ({ film: file }) => film.done(file, file_stem()),
     picked: ({ id, picked }) => inspector.picked(id, picked) || host.picked(id, picked),
     described: ({ spheres, measure }) => inspector.described(spheres, measure),
+    preview: ({ picture: file }) => preview.take(file),
     picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => {
@@ -276,14 +278,6 @@ const looks = new LookControls(
 const groups = new GroupLists(looks, () => cards.show('show'));
 const reading = new ReadingControls(read_again);
 const cut = new Cut(looks, () => settings?.camera ?? null);
-const cards = new Cards((name) => cut.set_open(name === 'cut'));
-
-function look_changed(): void {
-  groups.show();
-  cut.show();
-  inspector.moved();
-  union.outdated();
-}
 const saving = new Saving({
   draw: (width_px, height_px) => {
     const id = engine.new_id();
@@ -291,7 +285,25 @@ const saving = new Saving({
     return id;
   },
   cancel: () => engine.send({ type: 'picture_cancel' }),
+  resized: () => preview.follow(),
 });
+const preview = new Preview({
+  state: () => JSON.stringify([settings, look, shown_frame]),
+  size: () => saving.size(),
+  at_rest: () => picture.dataset['settled'] === 'true',
+  draw: (width_px, height_px) => engine.send({ type: 'preview', width_px, height_px }),
+});
+const cards = new Cards((name) => {
+  cut.set_open(name === 'cut');
+  preview.set_open(name === 'save');
+});
+
+function look_changed(): void {
+  groups.show();
+  cut.show();
+  inspector.moved();
+  union.outdated();
+}
 const film = new Film({
   draw: (request) => {
     const id = engine.new_id();
@@ -419,6 +431,7 @@ function show_frame(report: FrameReport, width: number, height: number): void {
     : `${width} × ${height}${report.divisor > 1 ? ` / ${report.divisor}` : ''} · ${Math.floor(100 * report.done)} %`;
   element('stage').classList.toggle('titled', settings?.title !== '');
   picture.dataset['settled'] = String(report.settled);
+  if (report.settled) preview.follow();
   // For measurements of the page's start.
   if (report.drawn && performance.getEntriesByName('first picture').length === 0) performance.mark('first picture');
 }

@@ -7,6 +7,8 @@ export interface SavingActions {
   /** Asks for the picture; returns the request's id. */
   draw(width_px: number, height_px: number): number;
   cancel(): void;
+  /** Another size is chosen. */
+  resized(): void;
 }
 
 const most_side = 16384; // as the library's
@@ -36,7 +38,7 @@ const sizes: [words: string, size: Size | null][] = [
 const can_copy = () => 'clipboard' in navigator && 'ClipboardItem' in globalThis;
 
 export class Saving {
-  private readonly size = element<HTMLSelectElement>('save_size');
+  private readonly list = element<HTMLSelectElement>('save_size');
   private readonly width = element<HTMLInputElement>('save_width');
   private readonly height = element<HTMLInputElement>('save_height');
   private readonly start = element<HTMLButtonElement>('save');
@@ -49,10 +51,13 @@ export class Saving {
   private forget_cancelled = () => {}; // the words about the last one
 
   constructor(private readonly actions: SavingActions) {
-    this.size.append(...sizes.map(([words]) => Object.assign(document.createElement('option'), { textContent: words })));
-    this.size.addEventListener('change', () => this.fit());
+    this.list.append(...sizes.map(([words]) => Object.assign(document.createElement('option'), { textContent: words })));
+    this.list.addEventListener('change', () => this.fit());
     for (const input of [this.width, this.height])
-      input.addEventListener('input', () => (this.size.selectedIndex = sizes.length - 1));
+      input.addEventListener('input', () => {
+        this.list.selectedIndex = sizes.length - 1;
+        actions.resized();
+      });
     this.start.addEventListener('click', () => this.begin());
     this.copy.addEventListener('click', () => this.begin_copy());
     this.cancel.addEventListener('click', () => actions.cancel());
@@ -74,20 +79,28 @@ export class Saving {
   private fit(): void {
     for (const [i, [, size]] of sizes.entries()) {
       const { width, height } = size?.(this.screen) ?? { width: 0, height: 0 };
-      this.size.options[i]!.disabled = width * height > this.most_pixels || Math.max(width, height) > most_side;
+      this.list.options[i]!.disabled = width * height > this.most_pixels || Math.max(width, height) > most_side;
     }
-    if (this.size.selectedOptions[0]?.disabled) this.size.selectedIndex = 0;
-    const [, size] = sizes[this.size.selectedIndex]!;
+    if (this.list.selectedOptions[0]?.disabled) this.list.selectedIndex = 0;
+    const [, size] = sizes[this.list.selectedIndex]!;
     if (!size) return;
     const { width, height } = size(this.screen);
     this.width.value = String(width);
     this.height.value = String(height);
+    this.actions.resized();
   }
 
   /** The wanted size; null: a field has none. */
+  size(): { width: number; height: number } | null {
+    if (!this.width.validity.valid || !this.height.validity.valid) return null;
+    const [width, height] = [Number(this.width.value), Number(this.height.value)];
+    return width > 0 && height > 0 ? { width, height } : null;
+  }
+
+  /** The same; the browser says what is wrong with a field. */
   chosen(): { width: number; height: number } | null {
     if (!this.width.reportValidity() || !this.height.reportValidity()) return null;
-    return { width: Number(this.width.value), height: Number(this.height.value) };
+    return this.size();
   }
 
   private begin(): boolean {
