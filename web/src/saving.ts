@@ -2,6 +2,7 @@
 import { element } from './dom';
 import { save } from './download';
 import { busy, fail, note } from './messages';
+import { words } from './words';
 
 export interface SavingActions {
   /** Asks for the picture; returns the request's id. */
@@ -23,15 +24,15 @@ const wide_cm = (cm: number): Size => ({ width, height }) => {
   return { width: px, height: Math.round((px * height) / width) };
 };
 
-const sizes: [words: string, size: Size | null][] = [
-  ['as on the screen', times(1)],
-  ['2 × the screen', times(2)],
-  ['4 × the screen', times(4)],
-  ['slide', fixed(1920, 1080)],
-  ['square', fixed(2000, 2000)],
-  ['one column, 8.5 cm at 300 dpi', wide_cm(8.5)],
-  ['two columns, 17.8 cm at 300 dpi', wide_cm(17.8)],
-  ['other', null],
+const sizes: [label: string, size: Size | null][] = [
+  [words.saving.sizes.screen, times(1)],
+  [words.saving.sizes.twice, times(2)],
+  [words.saving.sizes.four_times, times(4)],
+  [words.saving.sizes.slide, fixed(1920, 1080)],
+  [words.saving.sizes.square, fixed(2000, 2000)],
+  [words.saving.sizes.one_column, wide_cm(8.5)],
+  [words.saving.sizes.two_columns, wide_cm(17.8)],
+  [words.saving.sizes.other, null],
 ];
 
 // Where there is a clipboard for pictures: on a secure page alone.
@@ -51,7 +52,7 @@ export class Saving {
   private forget_cancelled = () => {}; // the words about the last one
 
   constructor(private readonly actions: SavingActions) {
-    this.list.append(...sizes.map(([words]) => Object.assign(document.createElement('option'), { textContent: words })));
+    this.list.append(...sizes.map(([label]) => Object.assign(document.createElement('option'), { textContent: label })));
     this.list.addEventListener('change', () => this.fit());
     for (const input of [this.width, this.height])
       input.addEventListener('input', () => {
@@ -109,7 +110,7 @@ export class Saving {
     this.forget_cancelled();
     this.to_clipboard = null;
     this.set_running(true);
-    busy('Drawing the picture');
+    busy(words.saving.drawing);
     this.id = this.actions.draw(size.width, size.height);
     return true;
   }
@@ -127,9 +128,9 @@ export class Saving {
     });
     picture.catch(() => {});
     navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]).then(
-      () => note('The picture is copied.'),
+      () => note(words.saving.copied),
       (error: Error) => {
-        if (came) fail(`The picture could not be copied: ${error.message}. Save it instead.`);
+        if (came) fail(words.saving.not_copied(error.message));
       },
     );
   }
@@ -145,7 +146,7 @@ export class Saving {
   }
 
   progress(done: number): void {
-    if (!this.cancel.hidden) busy(`Drawing the picture: ${Math.floor(100 * done)} %`, done);
+    if (!this.cancel.hidden) busy(`${words.saving.drawing}: ${Math.floor(100 * done)} %`, done);
   }
 
   /** `picture` null: cancelled. */
@@ -156,7 +157,7 @@ export class Saving {
     this.to_clipboard = null;
     if (copied) copied(picture);
     else if (picture) save(picture, `${scene.replace(/.*\//, '').replace(/\.[^.]*$/, '')}.png`);
-    if (!picture) this.forget_cancelled = note('The picture was cancelled.');
+    if (!picture) this.forget_cancelled = note(words.saving.cancelled);
   }
 
   failed(id: number | null): void {
