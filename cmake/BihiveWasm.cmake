@@ -1,14 +1,16 @@
 # Compile and link options of WebAssembly.
 
-# Exceptions: the header-only libraries throw, and the library turns that into errors. WebAssembly's own (-fwasm-exceptions)
-# make objects a seventh smaller, but Debian 12's Binaryen cannot parse the linked module ("attempted pop from empty
-# stack"). SIMD: every browser of the last years has it. Threads are workers with shared memory; a page has them only if
-# its server sends certain headers.
+# Exceptions: the header-only libraries throw, and the library turns that into errors. They are WebAssembly's
+# own: JavaScript's would send every call that may throw through JavaScript. SIMD, conversions of numbers that do not trap, extensions
+# of signs and copies of memory: every browser of the last years has them. Threads are workers with shared memory; a page has them only
+# if its server sends certain headers.
 option(BIHIVE_WASM_THREADS "Build WebAssembly for several threads" ON)
-add_compile_options(-fexceptions -msimd128)
+add_compile_options(-fwasm-exceptions -msimd128 -mnontrapping-fptoint -msign-ext -mbulk-memory)
 # Nobody asks what type a std::function holds: the names of those types are left out.
 add_compile_definitions(_LIBCPP_NO_RTTI)
-add_link_options(-fexceptions)
+# fmt without locales.
+add_compile_definitions(FMT_STATIC_THOUSANDS_SEPARATOR=',')
+add_link_options(-fwasm-exceptions)
 if(BIHIVE_WASM_THREADS)
   add_compile_options(-pthread)
   add_link_options(-pthread)

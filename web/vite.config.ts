@@ -9,6 +9,12 @@ export default defineConfig({
     target: 'es2022',
     modulePreload: { polyfill: false },
     assetsInlineLimit: 0,
+    // Languages are loaded on demand; scripts/page_size knows them by their folder.
+    rollupOptions: {
+      output: {
+        chunkFileNames: ({ facadeModuleId }) => `assets/${facadeModuleId?.includes('/languages/') ? 'languages/' : ''}[name]-[hash].js`,
+      },
+    },
   },
   worker: { format: 'es' },
 });

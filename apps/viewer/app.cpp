@@ -458,8 +458,13 @@ void App::continue_playing() {
 
 ImVec2 App::picture_size() const {
   const PixelSize pixels = window_->framebuffer();
-  const double panel = panel_shown_ ? Panel::width(window_->text_scale()) * window_->pixels_per_unit() : 0;
-  return {std::max(1.0F, static_cast<float>(pixels.width - panel)), std::max(1.0F, static_cast<float>(pixels.height))};
+  auto width = static_cast<float>(pixels.width), height = static_cast<float>(pixels.height);
+  if (panel_shown_) {
+    const auto per_unit = static_cast<float>(window_->pixels_per_unit());
+    const auto [below, extent] = Panel::place({width / per_unit, height / per_unit}, window_->text_scale());
+    (below ? height : width) -= extent * per_unit;
+  }
+  return {std::max(1.0F, width), std::max(1.0F, height)};
 }
 
 Status App::run() {
@@ -524,13 +529,15 @@ void App::draw(const FrameReport& report, Image* screenshot) {
   gl.Clear(GL_COLOR_BUFFER_BIT);
   window_->begin_frame();
   if (viewer_.settings().engine == ViewerEngine::gpu)
-    viewer_.show(0, {0, 0, static_cast<int>(size.x), static_cast<int>(size.y)});
+    // OpenGL counts from the lower border.
+    viewer_.show(0, {0, pixels.height - static_cast<int>(size.y), static_cast<int>(size.x), static_cast<int>(size.y)});
   else
     texture_->draw({size.x * unit, size.y * unit});
   PanelRequests requests;
   if (panel_shown_) requests = panel_.draw(viewer_, report, ImGui::GetIO().DisplaySize, window_->text_scale());
   PlayerRequests played;
-  if (reader_) played = draw_player_bar(player_, viewer_.facts(), size.x * unit, window_->text_scale());
+  if (reader_)
+    played = draw_player_bar(player_, viewer_.facts(), {size.x * unit, size.y * unit}, window_->text_scale());
   if (asked_file_)
     draw_prompt();
   else
@@ -547,7 +554,8 @@ float App::begin_overlay(const char* name) const {
   const float across = picture_size().x / static_cast<float>(window_->pixels_per_unit()) - 2 * margin;
   const float width = std::max(across, 100 * scale);
   const float bar = reader_ ? player_bar_height(window_->text_scale()) : 0;
-  ImGui::SetNextWindowPos({margin, ImGui::GetIO().DisplaySize.y - bar - margin}, ImGuiCond_Always, {0, 1});
+  const float lower = picture_size().y / static_cast<float>(window_->pixels_per_unit());
+  ImGui::SetNextWindowPos({margin, lower - bar - margin}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {width, ImGui::GetIO().DisplaySize.y});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * scale);
   ImGui::SetNextWindowBgAlpha(0.94F);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/names.h"
@@ -40,12 +41,18 @@ Camera projected(Camera camera, Projection projection) {
 
 }  // namespace
 
+PanelPlace Panel::place(ImVec2 display, double text_scale) {
+  const auto across = static_cast<float>(348 * text_scale);
+  const bool below = display.y > display.x && display.x < 1.6F * across;
+  return {below, below ? std::floor(display.y / 2) : across};
+}
+
 PanelRequests Panel::draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale) {
   PanelRequests requests;
   ViewerSettings settings = viewer.settings();
-  const float across = width(text_scale);
-  ImGui::SetNextWindowPos({display.x - across, 0});
-  ImGui::SetNextWindowSize({across, display.y});
+  const auto [below, extent] = place(display, text_scale);
+  ImGui::SetNextWindowPos(below ? ImVec2(0, display.y - extent) : ImVec2(display.x - extent, 0));
+  ImGui::SetNextWindowSize(below ? ImVec2(display.x, extent) : ImVec2(extent, display.y));
   ImGui::Begin("bihive", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);

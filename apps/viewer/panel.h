@@ -16,6 +16,12 @@
 
 namespace bihive::window {
 
+/// Where the panel lies: at the right border, or in a tall, narrow window at the lower one.
+struct PanelPlace {
+  bool below = false;
+  float extent = 0;  ///< its width, or below its height, in ImGui's units
+};
+
 /// Requests of one frame.
 struct PanelRequests {
   std::optional<ViewerSettings> settings;
@@ -28,10 +34,10 @@ struct PanelRequests {
 
 class Panel {
  public:
-  /// Width in ImGui's units.
-  static float width(double text_scale) { return static_cast<float>(348 * text_scale); }
+  /// In a display of that size, in ImGui's units.
+  static PanelPlace place(ImVec2 display, double text_scale);
 
-  /// Draws the panel at the right border of a display of that size.
+  /// Draws the panel there.
   PanelRequests draw(const Viewer& viewer, const FrameReport& report, ImVec2 display, double text_scale);
 
   TreeTable table;

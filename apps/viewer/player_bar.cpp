@@ -15,12 +15,12 @@ float player_bar_height(double text_scale) {
   return ImGui::GetFrameHeight() + 2 * kMargin * static_cast<float>(text_scale);
 }
 
-PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, float width, double text_scale) {
+PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, ImVec2 picture, double text_scale) {
   PlayerRequests requests;
   const auto scale = static_cast<float>(text_scale);
   const float height = player_bar_height(text_scale);
-  ImGui::SetNextWindowPos({0, ImGui::GetIO().DisplaySize.y - height});
-  ImGui::SetNextWindowSize({width, height});
+  ImGui::SetNextWindowPos({0, picture.y - height});
+  ImGui::SetNextWindowSize({picture.x, height});
   ImGui::SetNextWindowBgAlpha(0.85F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {kMargin * scale, kMargin * scale});
   ImGui::Begin("player", nullptr,

@@ -23,7 +23,7 @@ struct PlayerRequests {
 /// In ImGui's units.
 float player_bar_height(double text_scale);
 
-/// Draws it at the lower border of the picture, whose width it gets.
-PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, float width, double text_scale);
+/// Draws it at the lower border of a picture of that size.
+PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, ImVec2 picture, double text_scale);
 
 }  // namespace bihive::window

@@ -142,6 +142,17 @@ class Window(ProgramTest):
         self.assertTrue(picture == self.rendered("272x420", "demo"), "the pixels differ")
         self.assert_is_panel(panel)
 
+    def test_a_narrow_window_has_the_panel_below(self):
+        for engine, tolerance in (("cpu", 0), ("gpu", 0.01)):
+            given = ["demo", "--style", "flat", "--samples", "1"]
+            arguments = [*given, "--size", "360x640", "--engine", engine, "--screenshot", "window.png"]
+            done = self.run_bihive("view", *arguments, env=self.screen.environment())
+            self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
+            rows = png_pixels(self.read("window.png"))
+            self.assertEqual((len(rows[0]), len(rows)), (360, 640))
+            self.assertLessEqual(share_off(rows[:320], self.rendered("360x320", *given), 8), tolerance, engine)
+            self.assert_is_panel(rows[320:])
+
     def test_styles_are_those_of_render(self):
         for style in ("studio", "flat"):
             given = ["demo", "--style", style]

@@ -83,6 +83,37 @@ TEST(Title, MmcifInPairsAndLoops) {
   EXPECT_EQ(file.title, "");
 }
 
+TEST(Title, CrystalsHaveTheNameOfTheSubstance) {
+  const auto title = [](const std::string& names) {
+    return read_text("data_X\n_cell_length_a 4\n_cell_length_b 4\n_cell_length_c 4\n" + names +
+                         "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
+                         "C1 0.1 0.2 0.3\n",
+                     "a.cif")
+        .title;
+  };
+  EXPECT_EQ(title(""), "");
+  EXPECT_EQ(title("_publ_section_title\n;\n The structure\n of quartz\n;\n"), "The structure of quartz");
+  EXPECT_EQ(title("_publ_section_title 'A study'\n_chemical_name_mineral Quartz\n"), "Quartz");
+  EXPECT_EQ(title("_chemical_name_common ?\n_chemical_name_systematic 'silicon dioxide'\n"), "silicon dioxide");
+  EXPECT_EQ(title("_chemical.name_common 'rock crystal'\n"), "rock crystal") << "as newer dictionaries write it";
+}
+
+TEST(Title, VaspBeginsWithIt) {
+  const auto poscar = [](const std::string& first, const std::string& names) {
+    return read_text(first + "\n1.0\n4 0 0\n0 4 0\n0 0 4\n" + names + "1 1\nDirect\n0 0 0\n.5 .5 .5\n", "POSCAR").title;
+  };
+  EXPECT_EQ(poscar("Rock salt, relaxed ! PBE", "Na Cl\n"), "Rock salt, relaxed ! PBE");
+  EXPECT_EQ(poscar("Na Cl", "Na Cl\n"), "") << "elements alone";
+  EXPECT_EQ(poscar("Na_pv Cl", ""), "") << "they name the spheres";
+  EXPECT_EQ(poscar("", "Na Cl\n"), "");
+  // Each frame of XDATCAR has the head before it.
+  const auto head = [](const std::string& first) { return first + "\n1.0\n4 0 0\n0 4 0\n0 0 4\nNa\n1\n"; };
+  const std::string frame = "Direct configuration= 1\n0 0 0\n";
+  const std::string text = head("before") + frame + frame + head("after") + frame;
+  for (const auto& [at, title] : {std::pair(0, "before"), std::pair(1, "before"), std::pair(2, "after")})
+    EXPECT_EQ(read_text(text, "XDATCAR", at_frame(at)).title, title) << at;
+}
+
 TEST(Title, GroLeavesTimeAndStepOut) {
   const auto title = [](const std::string& line) {
     return read_text(line + "\n1\n    1WATER  OW1    1   0.126   1.624   1.679\n 1 1 1\n", "a.gro").title;

@@ -4,7 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { and_settle, close_card, link_state, state_of_address, no_complaints, open_own, open_page, scratch, set_value, small, with_page } from './page_kit.mjs';
+import { and_settle, assert_same_picture, close_card, decoded, link_state, state_of_address, no_complaints, open_own, open_page, saved_picture, scratch, settled, set_value, small, with_page } from './page_kit.mjs';
 
 const kit = with_page();
 
@@ -39,6 +39,51 @@ const block_times = (all) => {
     return id === 0xa3 ? [{ time: cluster + content.readInt16BE(1), is_key: (content[3] & 0x80) !== 0 }] : [];
   });
 };
+
+test('the card shows in small what will be saved, with its shape and background', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, { viewport: { width: 900, height: 600 } });
+  // The page may not fetch what it shows.
+  await page.evaluate(() => {
+    const plain = URL.createObjectURL;
+    URL.createObjectURL = (blob) => plain.call(URL, (globalThis.shown = blob));
+  });
+  const drawn = async (width, height) => {
+    await page.fill('#save_width', String(width));
+    await page.fill('#save_height', String(height));
+    const shape = (280 * height) / width <= 160 ? [280, Math.round((280 * height) / width)] : [Math.round((160 * width) / height), 160];
+    await page.waitForFunction(([w, h]) => {
+      const { naturalWidth, naturalHeight } = document.getElementById('save_preview');
+      return naturalWidth === w && naturalHeight === h;
+    }, shape);
+    const base64 = await page.evaluate(async () => btoa(String.fromCharCode(...new Uint8Array(await globalThis.shown.arrayBuffer()))));
+    return { png: Buffer.from(base64, 'base64'), shape };
+  };
+  // In its own size the picture is the preview.
+  for (const [width, height] of [[700, 200], [300, 900]]) {
+    const { png, shape } = await drawn(width, height);
+    assert_same_picture(png, await saved_picture(page, ...shape), `${width} x ${height}`);
+    await settled(page);
+  }
+  const before = await page.getAttribute('#save_preview', 'src');
+  await page.click('#save_clear');
+  await page.waitForFunction((src) => document.getElementById('save_preview').src !== src, before);
+  await settled(page);
+  const clear = await drawn(300, 900);
+  assert.equal(decoded(clear.png).channels, 4);
+  assert_same_picture(clear.png, await saved_picture(page, ...clear.shape), 'clear');
+  await settled(page);
+  await page.waitForTimeout(600);
+  await page.screenshot({ path: join(scratch, 'preview.png') });
+  // It gives way to a picture that is saved, and is not drawn without need.
+  const src = await page.getAttribute('#save_preview', 'src');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+  assert.ok(readFileSync(await download.path()).length > 1000);
+  await page.waitForSelector('#picture[data-settled=true]');
+  await page.waitForTimeout(600);
+  assert.equal(await page.getAttribute('#save_preview', 'src'), src);
+  no_complaints(complaints);
+  await context.close();
+});
 
 test('a film turns once around, and leaves camera and history alone', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
@@ -91,6 +136,44 @@ test('a film of a file has all of its frames, and shows the one before again', a
   assert.equal(name, 'steps.webm');
   assert.deepEqual(block_times(elements(bytes)).map(({ time }) => time), [0, 40, 80, 120]);
   await page.waitForSelector('#player[data-frame="2"]');
+  no_complaints(complaints);
+  await context.close();
+});
+
+test('a film has the colours of the pictures', async () => {
+  const file = join(scratch, 'colours.xyz');
+  const frame = 'Properties=species:S:1:pos:R:3:color:R:3\nX -2 0 0 1 0 0\nX 0 0 0 0 1 0\nX 2 0 0 0 0 1\n';
+  writeFileSync(file, `3\n${frame}3\n${frame}`);
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, small);
+  await open_own(page, file, '2 frames');
+  await and_settle(page, () => set_value(page, '#samples_per_pixel', 1));
+  await page.fill('#save_width', '192');
+  await page.fill('#save_height', '128');
+  await page.selectOption('#film_kind', 'frames');
+  const { bytes } = await film(page);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+  const made = join(scratch, 'colours.webm');
+  writeFileSync(made, bytes);
+  const probed = JSON.parse(execFileSync('ffprobe', ['-v', 'error', '-show_streams', '-of', 'json', made], { encoding: 'utf8' })).streams[0];
+  for (const [name, value] of [['color_space', 'bt709'], ['color_range', 'tv'], ['color_primaries', 'bt709'], ['color_transfer', 'bt709']])
+    assert.equal(probed[name], value, name);
+  const rgb = (path) =>
+    execFileSync('ffmpeg', ['-v', 'error', '-i', path, '-frames:v', '1', '-sws_flags', 'accurate_rnd+full_chroma_int+bilinear', '-f', 'rawvideo', '-pix_fmt', 'rgb24', '-'], { maxBuffer: 1 << 24 });
+  const [shown, drawn] = [rgb(made), rgb(await download.path())];
+  assert.equal(shown.length, drawn.length);
+  // Flat places: edges lose colour to the codec. Another matrix would change pure colours by more than 15.
+  const flat = [];
+  for (let y = 2; y < 126; ++y)
+    for (let x = 2; x < 190; ++x) {
+      const value = (dx, dy, k) => drawn[3 * ((y + dy) * 192 + x + dx) + k];
+      const around = [0, 1, 2].map((k) => [[0, 0], [2, 0], [-2, 0], [0, 2], [0, -2]].map(([dx, dy]) => value(dx, dy, k)));
+      if (around.every((values) => Math.max(...values) - Math.min(...values) < 12)) flat.push([0, 1, 2].map((k) => shown[3 * (y * 192 + x) + k] - value(0, 0, k)));
+    }
+  assert.ok(flat.length > 5000, `${flat.length}`);
+  for (const k of [0, 1, 2]) {
+    const mean = flat.reduce((sum, one) => sum + Math.abs(one[k]), 0) / flat.length;
+    assert.ok(mean < 2, `channel ${k}: ${mean}`);
+  }
   no_complaints(complaints);
   await context.close();
 });

@@ -1,6 +1,9 @@
 // Asks for the user's own file that a link was made for.
 import { element } from './dom';
 import type { State } from './link';
+import { words as page_words } from './words';
+
+const texts = page_words.ask;
 
 export interface Ask {
   file: string; // its name
@@ -13,9 +16,9 @@ export interface Ask {
 export function ask_for({ file, state }: { file: string; state: State }): Ask {
   const box = element('ask');
   const words = element('ask_words');
-  words.textContent = `This link was made for your file ${file}. It is not in the link: open it to see it as it was.`;
+  words.textContent = texts.made_for(file);
   const open = element<HTMLButtonElement>('ask_open');
-  open.textContent = `Open ${file}…`;
+  open.textContent = texts.open(file);
   open.onclick = () => element('file').click();
   const close = () => void (box.hidden = true);
   element<HTMLButtonElement>('ask_close').onclick = close;
@@ -24,6 +27,6 @@ export function ask_for({ file, state }: { file: string; state: State }): Ask {
     file,
     state,
     close,
-    say_other: (name) => (words.textContent = `${name} is open. The link was made for ${file}, which it still waits for.`),
+    say_other: (name) => (words.textContent = texts.other(name, file)),
   };
 }

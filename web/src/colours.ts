@@ -119,11 +119,11 @@ export class ColourControls {
   }
 
   show_facts(facts: Facts): void {
-    const whose = facts.is_file_of_spheres ? 'the style’s' : 'the file’s';
+    const whose = facts.is_file_of_spheres ? words.whose.style : words.whose.file;
     this.asked = '';
     this.histogram.take(null);
     fill(this.attribute, `${whose} colours`, facts.attributes);
-    fill(this.crease, facts.is_file_of_spheres ? 'the style’s lines' : 'the file’s lines', facts.attributes);
+    fill(this.crease, facts.is_file_of_spheres ? words.whose.lines_of_style : words.whose.lines_of_file, facts.attributes);
     this.lights.options[0]!.textContent = whose;
   }
 

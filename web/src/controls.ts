@@ -1,6 +1,7 @@
 // The panel's controls for settings: they show them, and report the user's changes.
 import { CellControls } from './cell';
 import { add_options, element, made, RadioGroup } from './dom';
+import { label_of } from './language';
 import { LensControls } from './lens';
 import { ParameterControls } from './parameter_controls';
 import type { Camera, Changes, Choices, EngineName, Facts, Move, Settings } from './protocol';
@@ -71,10 +72,10 @@ export class Controls {
   /** The library's tables. */
   build({ settings, views, projections, sides }: Choices): void {
     this.parameters.build(settings);
-    add_options(this.view, views);
-    add_options(this.projection, projections.map((name) => ({ name })));
+    add_options(this.view, views.map(({ name, label }) => ({ name, label: label_of(`view.${name}`, label) })));
+    add_options(this.projection, projections.map((name) => ({ name, label: label_of(`projection.${name}`, name) })));
     for (const side of sides) {
-      const button = made('button', { type: 'button', 'data-side': side }, side.charAt(0).toUpperCase() + side.slice(1));
+      const button = made('button', { type: 'button', 'data-side': side }, label_of(`side.${side}`, side.charAt(0).toUpperCase() + side.slice(1)));
       button.addEventListener('click', () => this.actions.move({ kind: 'look_from', side }));
       element('home').before(button);
     }

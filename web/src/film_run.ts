@@ -1,4 +1,5 @@
 // In the worker: draws the pictures of a film, and encodes them by WebCodecs.
+import { film_colours, i420_of } from './film_pixels';
 import { BadInput, value_of, type Page } from './module';
 import { PictureRun } from './picture_run';
 import type { Camera, FilmRequest, Settings } from './protocol';
@@ -17,18 +18,6 @@ async function chosen_codec({ width_px: width, height_px: height, frames_per_sec
     if ((await VideoEncoder.isConfigSupported(config)).supported) return { codec, config };
   }
   throw new BadInput(`This browser encodes no film of ${width} × ${height} pixels: try a smaller one`);
-}
-
-// Four bytes per pixel; what is transparent becomes white.
-function opaque(pixels: Uint8Array, channels: 3 | 4): Uint8Array<ArrayBuffer> {
-  const count = pixels.length / channels;
-  const made = new Uint8Array(4 * count);
-  for (let i = 0; i < count; ++i) {
-    const opacity = channels === 4 ? pixels[4 * i + 3]! / 255 : 1;
-    for (let k = 0; k < 3; ++k) made[4 * i + k] = Math.round(pixels[channels * i + k]! * opacity + 255 * (1 - opacity));
-    made[4 * i + 3] = 255;
-  }
-  return made;
 }
 
 export class FilmRun {
@@ -67,8 +56,9 @@ export class FilmRun {
         this.run = new PictureRun(this.page, (done) => this.progress((i + done) / count));
         const drawn = await this.run.draw_pixels({ ...request, samples_per_pixel });
         if (!drawn) break;
-        const picture = new VideoFrame(opaque(this.page.pixels(), drawn.channels), {
-          format: 'RGBX', codedWidth: drawn.width, codedHeight: drawn.height, timestamp: Math.round(i * step_us), duration: Math.round(step_us),
+        const picture = new VideoFrame(i420_of(this.page.pixels(), drawn.channels, drawn.width, drawn.height), {
+          format: 'I420', codedWidth: drawn.width, codedHeight: drawn.height, timestamp: Math.round(i * step_us), duration: Math.round(step_us),
+          colorSpace: film_colours,
         });
         encoder.encode(picture, { keyFrame: i % key_every === 0 });
         picture.close();

@@ -33,7 +33,7 @@ const rest_ms = 120; // of the pointer before its place is asked for
 const long_press_ms = 500;
 const most_click_px = 4;
 const most_pins = 4;
-const measures = ['', '', 'Distance', 'Angle', 'Dihedral']; // by the number of pins
+const kinds = ['', '', 'distance', 'angle', 'dihedral']; // in files
 const closer = 0.5; // of the distance that is left after a double click
 
 // A text or a number as a value of a selection.
@@ -99,7 +99,7 @@ export class Inspector {
     });
     this.csv.addEventListener('click', () => {
       const ids = this.pins.map(({ sphere }) => sphere);
-      actions.measure_frames(ids, `${measures[ids.length]!.toLowerCase()}_${ids.join('_')}`);
+      actions.measure_frames(ids, `${kinds[ids.length]!}_${ids.join('_')}`);
     });
   }
 
@@ -257,15 +257,15 @@ export class Inspector {
     const others = this.pins.filter(({ sphere }) => sphere !== picked.sphere);
     const is_new = others.length === this.pins.length;
     this.set_pins(!is_new ? others : others.length < most_pins ? [...others, picked] : [picked]);
-    this.news = `${is_new ? 'Pinned' : 'No longer pinned'}: ${title_of(picked)}`;
+    this.news = is_new ? words.pins.pinned(title_of(picked)) : words.pins.no_longer(title_of(picked));
     this.actions.describe(this.pins.map(({ sphere }) => sphere));
   }
 
   private words_of({ value, nearest_images }: Measure): string {
-    const name = measures[this.pins.length]!;
+    const name = words.pins.measures[this.pins.length]!;
     if (value === null || name === '') return '';
-    const unit = name !== 'Distance' ? '°' : this.unit && ` ${this.unit}`;
-    return `${name} ${readable(value)}${unit}${nearest_images ? ', of nearest images' : ''}`;
+    const unit = this.pins.length !== 2 ? '°' : this.unit && ` ${this.unit}`;
+    return `${name} ${readable(value)}${unit}${nearest_images ? words.pins.of_nearest_images : ''}`;
   }
 
   // Of the sphere that was pinned last.

@@ -4,6 +4,7 @@ import { element } from './dom';
 import type { Past } from './history';
 import type { Source } from './protocol';
 import type { OwnFiles } from './sources';
+import { words } from './words';
 
 const longest_ms = 24 * 3600 * 1000;
 const most_bytes = 256e6; // of files; larger ones are not copied
@@ -179,11 +180,11 @@ export class Keeper {
     const name = this.own?.file.name;
     element('forget').hidden = !this.base || this.forgotten;
     element('kept').textContent = !this.base
-      ? 'This browser keeps nothing for the page: a reload begins anew.'
+      ? words.kept.nothing
       : this.forgotten
-        ? 'Nothing is kept any more: a reload begins anew.'
+        ? words.kept.forgotten
         : !this.fits
-          ? `${name} is too large to be kept for a reload: ${megabytes(size_of(this.own))}, of ${megabytes(most_bytes)} at most.`
-          : `A reload brings back ${name ? `${name} and ` : ''}your changes: they are kept in this browser for a day.`;
+          ? words.kept.too_large(name ?? '', megabytes(size_of(this.own)), megabytes(most_bytes))
+          : name ? words.kept.file_and_changes(name) : words.kept.changes;
   }
 }

@@ -3,15 +3,17 @@
 import { ColourControls } from './colours';
 import { add_options, element, RadioGroup } from './dom';
 import type { Action, Choices, ColouredBy, Facts, Histogram, Look, LookFault, LookRow } from './protocol';
+import { label_of } from './language';
 import type { LookRows } from './groups';
 import { fail } from './messages';
 import { build_style_tiles } from './style_tiles';
+import { words } from './words';
 
 // Lists of names for values.
 const lists: Record<Action['names'], string> = { none: '', colours: 'colour_names', materials: 'material_names', attributes: 'colour_attributes' };
 const actions = new Map<string, Action>();
 const is_complete = ({ action, value }: LookRow) => !actions.get(action)?.value || value !== '';
-const waiting = ({ action }: LookRow) => `It waits for ${actions.get(action)!.value}: ${actions.get(action)!.example}`;
+const waiting = ({ action }: LookRow) => words.row_waits(actions.get(action)!.value, actions.get(action)!.example);
 const in_list = (names: string[]) => names.map((name) => ({ name, label: '' }));
 
 // One row of controls.
@@ -102,7 +104,7 @@ export class LookControls implements LookRows {
     build_style_tiles(choices.styles);
     this.of_all.build(choices);
     for (const action of choices.actions) actions.set(action.name, action);
-    add_options(element<HTMLTemplateElement>('look_row').content.querySelector<HTMLElement>('.action')!, choices.actions);
+    add_options(element<HTMLTemplateElement>('look_row').content.querySelector<HTMLElement>('.action')!, choices.actions.map(({ name, label }) => ({ name, label: label_of(`action.${name}`, label) })));
     add_options(element('material_names'), in_list(choices.materials));
     add_options(element('colour_names'), in_list(choices.colours));
     add_options(this.colours, choices.element_colours.map((name) => ({ name })));

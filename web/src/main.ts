@@ -1,4 +1,6 @@
 // The page: it starts the worker, shows the worker's answers, and passes on the user's actions.
+import { start_language } from './language'; // first: the others take their words from it
+import { watch_badge } from './badge';
 import { Controls } from './controls';
 import { Cards } from './cards';
 import { Cut } from './cut';
@@ -20,6 +22,7 @@ import { document_of, has_state, link_of, reading_of, state_from, state_of, type
 import { data_inside, data_of_page, escaped, is_one_file, is_page, packed_module, page_with, type Inside } from './one_file';
 import { keep_for_offline, listen_for_launches, remember_start, remembered_start } from './offline';
 import { begin_load, busy, end_load, fail, note } from './messages';
+import { Preview } from './preview';
 import { PlayerBar } from './player';
 import { listen_for_pointers } from './pointer';
 import type { Changes, EngineName, Facts, FrameReport, GpuState, Look, Move, Reading, Settings, Source } from './protocol';
@@ -89,11 +92,11 @@ const engine = new Engine(
       gpu = found;
       show_gpu();
       element('about').textContent =
-        `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. ${is_one_file ? 'This page makes no requests' : "No request leaves this page's server"}.`;
+        texts.about(version, threads, !is_one_file);
     },
     loaded: (answer) => {
       if (answer.id === loading) {
-        busy('Drawing');
+        busy(texts.drawing);
         first_frame = true;
       }
       end_load(answer.id);
@@ -217,6 +220,7 @@ const engine = new Engine(
     film: ({ film: file }) => film.done(file, file_stem()),
     picked: ({ id, picked }) => inspector.picked(id, picked) || host.picked(id, picked),
     described: ({ spheres, measure }) => inspector.described(spheres, measure),
+    preview: ({ picture: file }) => preview.take(file),
     picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
     thesis_progress: ({ progress }) => thesis.progress(progress),
     thesis_failed: ({ message }) => {
@@ -276,14 +280,6 @@ const looks = new LookControls(
 const groups = new GroupLists(looks, () => cards.show('show'));
 const reading = new ReadingControls(read_again);
 const cut = new Cut(looks, () => settings?.camera ?? null);
-const cards = new Cards((name) => cut.set_open(name === 'cut'));
-
-function look_changed(): void {
-  groups.show();
-  cut.show();
-  inspector.moved();
-  union.outdated();
-}
 const saving = new Saving({
   draw: (width_px, height_px) => {
     const id = engine.new_id();
@@ -291,7 +287,25 @@ const saving = new Saving({
     return id;
   },
   cancel: () => engine.send({ type: 'picture_cancel' }),
+  resized: () => preview.follow(),
 });
+const preview = new Preview({
+  state: () => JSON.stringify([settings, look, shown_frame]),
+  size: () => saving.size(),
+  at_rest: () => picture.dataset['settled'] === 'true',
+  draw: (width_px, height_px) => engine.send({ type: 'preview', width_px, height_px }),
+});
+const cards = new Cards((name) => {
+  cut.set_open(name === 'cut');
+  preview.set_open(name === 'save');
+});
+
+function look_changed(): void {
+  groups.show();
+  cut.show();
+  inspector.moved();
+  union.outdated();
+}
 const film = new Film({
   draw: (request) => {
     const id = engine.new_id();
@@ -376,8 +390,8 @@ function show_gpu(): void {
   const words = element('engine_note');
   words.hidden = gpu.here && !gpu.software;
   words.textContent = gpu.here
-    ? 'WebGL2 is drawn by software here: the CPU engine is faster.'
-    : 'This browser gives the page no WebGL2, so the GPU engine cannot be chosen: the CPU engine draws.';
+    ? texts.engine.software
+    : texts.engine.missing;
   words.title = gpu.why_not;
   for (const button of document.querySelectorAll<HTMLInputElement>('#engine input[value=gpu]'))
     button.disabled = !gpu.here;
@@ -389,19 +403,18 @@ function show_facts(now: Facts): void {
   // The built-in ones have names for people in the list of samples.
   const built_in = 'built_in' in source && document.querySelector(`#built_in option[value="${source.built_in}"]`);
   const name = (built_in && built_in.textContent) || now.title || file;
-  const atoms = now.has_elements ? 'atoms' : 'spheres';
-  const counted = `${grouped(now.spheres)} ${now.spheres === 1 ? atoms.slice(0, -1) : atoms}`;
+  const counted = texts.scene[now.has_elements ? 'atoms' : 'spheres'](grouped(now.spheres), now.spheres === 1);
   const entry = now.entry_id === name ? '' : now.entry_id;
   element('badge_name').textContent = name;
   element('badge').title = name;
   element('badge_more').textContent = [entry, counted, now.format].filter(Boolean).join(' · ');
   document.title = [name, entry, 'bihive'].filter(Boolean).join(' · ');
-  const spheres = `${grouped(now.spheres)} ${now.spheres === 1 ? 'sphere' : 'spheres'}`;
+  const spheres = texts.scene.spheres(grouped(now.spheres), now.spheres === 1);
   element('scene_title').textContent = now.title;
   element('scene_title').hidden = now.title === '';
   element('facts').textContent =
     `${file}: ${spheres}, ${now.format}` +
-    (now.frames > 1 ? `, ${grouped(now.frames)} frames` : '');
+    (now.frames > 1 ? `, ${texts.scene.frames(grouped(now.frames))}` : '');
   picture.setAttribute('aria-label', `${name}, ${spheres}`);
   element('rules_box').hidden = now.rules.length === 0;
   element('rules').replaceChildren(
@@ -419,6 +432,7 @@ function show_frame(report: FrameReport, width: number, height: number): void {
     : `${width} × ${height}${report.divisor > 1 ? ` / ${report.divisor}` : ''} · ${Math.floor(100 * report.done)} %`;
   element('stage').classList.toggle('titled', settings?.title !== '');
   picture.dataset['settled'] = String(report.settled);
+  if (report.settled) preview.follow();
   // For measurements of the page's start.
   if (report.drawn && performance.getEntriesByName('first picture').length === 0) performance.mark('first picture');
 }
@@ -441,7 +455,7 @@ async function open(
   refused = null;
   begin_load(id);
   picture.dataset['settled'] = 'false';
-  busy(`Loading ${name}`);
+  busy(texts.loading(name));
   try {
     const { source: from, files } = await what;
     if (id !== loading) return; // another one was requested meanwhile
@@ -489,7 +503,7 @@ async function open_files(files: File[]): Promise<void> {
   const file = files.find((one) => !is_trajectory(one));
   if (file) {
     await open_file(file, moves);
-    if (files.length > (moves ? 2 : 1)) note(`Several files were chosen; this is ${file.name}.`);
+    if (files.length > (moves ? 2 : 1)) note(texts.several_files(file.name));
   } else if (!chosen) fail(`${moves!.name} holds places alone: open the file of its spheres first, or both at once`);
   else {
     const own = { file: chosen.file, trajectory: moves };
@@ -563,16 +577,6 @@ function watch_size(): void {
   fit();
 }
 
-// Messages begin below the badge, which has two lines where its text is long (style.css).
-function watch_badge(): void {
-  const badge = element('badge');
-  const { style } = document.documentElement;
-  new ResizeObserver(() => {
-    if (badge.offsetHeight === 0) style.removeProperty('--below_badge');
-    else style.setProperty('--below_badge', `${badge.offsetTop + badge.offsetHeight + 6}px`);
-  }).observe(badge);
-}
-
 // A phone has a sheet of its own for links.
 const shares_links = 'share' in navigator && matchMedia('(pointer: coarse)').matches;
 
@@ -580,7 +584,7 @@ async function copy_link(): Promise<void> {
   if (!settings) return;
   const link = link_of({ source, settings, look });
   if (!is_embedded) history.replaceState(null, '', link);
-  const words = 'file' in source ? `It asks for the file ${source.file}, which is not in it.` : '';
+  const words = 'file' in source ? texts.link.asks_for(source.file) : '';
   if (shares_links) {
     // Closing the system's sheet is no fault.
     await navigator.share({ title: document.title, url: link }).catch(() => {});
@@ -588,9 +592,9 @@ async function copy_link(): Promise<void> {
   }
   try {
     await navigator.clipboard.writeText(link);
-    note(`The link is copied. ${words}`);
+    note(`${texts.link.copied} ${words}`);
   } catch {
-    note(`The link is in the address bar: this browser does not let the page copy it. ${words}`);
+    note(`${texts.link.in_address} ${words}`);
   }
 }
 
@@ -619,7 +623,7 @@ async function save_page(): Promise<void> {
   try {
     const file = await page_with({ source, settings, look }, shown_files);
     save(file, `${file_stem()}.html`);
-    note(`The page has ${(file.size / 1e6).toFixed(1)} MB. It opens by itself, without a network, on a phone too.`);
+    note(texts.page_saved((file.size / 1e6).toFixed(1)));
   } catch (error) {
     fail((error as Error).message);
   }
@@ -690,13 +694,14 @@ function lacking(): string {
 
 async function start(): Promise<void> {
   start_theme(follow_theme);
+  start_language();
   start_embedded();
   keep_for_offline();
   const lack = lacking();
   if (lack !== '') {
-    fail(`This browser has no ${lack}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`);
+    fail(texts.lacking(lack));
     element('badge').hidden = true;
-    picture.setAttribute('aria-label', 'No picture');
+    picture.setAttribute('aria-label', texts.no_picture);
     element('tools').inert = true;
     return;
   }
@@ -704,7 +709,7 @@ async function start(): Promise<void> {
   const threads = globalThis.crossOriginIsolated && typeof SharedArrayBuffer !== 'undefined' && threads_asked !== '0';
   figures = new Figures({ base: document.baseURI, threads }, () => shown_files);
   const canvases = [gpu_canvas.transferControlToOffscreen(), cpu_canvas.transferControlToOffscreen()] as const;
-  busy('Starting');
+  busy(texts.starting);
   const wasm = await host.begin(threads);
   const packed = packed_module();
   engine.send(
@@ -735,8 +740,8 @@ async function start(): Promise<void> {
   element('copy_embed').addEventListener('click', () => void copy_embed());
   element('save_page').addEventListener('click', () => void save_page());
   // A link to a file of one's own is nobody else's, and there is no server.
-  if (is_one_file) for (const id of ['copy_link', 'link_help', 'url_form', 'thesis_group']) element(id).hidden = true;
-  if (shares_links) element('copy_link').textContent = 'Share link';
+  if (is_one_file) for (const id of ['copy_link', 'link_help', 'url_form', 'thesis_group', 'language_row']) element(id).hidden = true;
+  if (shares_links) element('copy_link').textContent = texts.link.share;
 
   const open_state = async (start: string) => {
     try {

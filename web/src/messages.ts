@@ -1,6 +1,7 @@
 // The page's messages: notes that stay as long as it takes to read them, or until the scene that they are about is
 // replaced, and errors that stay until the user closes them.
 import { element } from './dom';
+import { words as words_of_page } from './words';
 
 const most_at_once = 3;
 const tick_ms = 250;
@@ -14,7 +15,7 @@ function show(box: HTMLElement, text: string, kind: string, on_close = () => {})
   const close = document.createElement('button');
   close.type = 'button';
   close.textContent = '×';
-  close.setAttribute('aria-label', 'Dismiss');
+  close.setAttribute('aria-label', words_of_page.dismiss);
   close.addEventListener('click', () => {
     message.remove();
     on_close();

@@ -1,4 +1,5 @@
 // A row of the library's table of a picture's parameters (src/bihive/settings/), as Page::choices() gives it.
+import { words } from './words';
 import type { Settings } from './protocol';
 import type { PictureSettings } from './settings';
 
@@ -54,7 +55,7 @@ export function note_of({ cpu_only, needs, note }: Parameter): string {
 
 /** A slider's number with its unit, and its sign if the slider has both. */
 export function slider_words({ or_zero, unit, slider }: Parameter, value: number): string {
-  if (or_zero && value === 0) return 'none';
+  if (or_zero && value === 0) return words.none;
   if (unit === '%') return `${Math.round(100 * value)} %`;
   const number = slider![0] < 0 && value > 0 ? `+${value}` : String(value);
   return unit ? `${number} ${unit}` : number;

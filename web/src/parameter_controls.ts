@@ -2,6 +2,7 @@
 // [data-parameters].
 import { made } from './dom';
 import { Field, readable } from './field';
+import { label_of } from './language';
 import { is_beyond, is_in_range, is_off, note_of, slider_words, type Id, type Parameter, type Value } from './parameter';
 import type { Changes, Settings } from './protocol';
 import { Slider } from './slider';
@@ -48,11 +49,11 @@ export class ParameterControls {
     const why = note_of(row);
     const attributes = { id, title: sentence(row.help), ...(why ? { 'aria-describedby': `${id}_note` } : {}) };
     const line = made('div', { class: kind === 'flag' ? 'row check' : 'row' });
-    line.append(made('label', { for: id }, sentence(row.long_label ?? row.label!)));
+    line.append(made('label', { for: id }, sentence(label_of(id, row.long_label ?? row.label!))));
     box.append(line);
     const make = kind === 'flag' ? this.flag : kind === 'choice' ? this.choice : slider ? this.slider : this.field;
     const input = make.call(this, row, attributes, line);
-    const note = why ? made('p', { class: 'hint', id: `${id}_note`, hidden: '' }, `${typographic(why)}.`) : null;
+    const note = why ? made('p', { class: 'hint', id: `${id}_note`, hidden: '' }, `${typographic(label_of(`${id}.note`, why))}.`) : null;
     if (note) box.append(note);
     this.controls.push({ row, input, note });
   }
@@ -70,7 +71,7 @@ export class ParameterControls {
 
   private choice({ id, names = [], choice_labels = names }: Parameter, attributes: Attributes, line: HTMLElement): Input {
     const select = made('select', attributes);
-    select.append(...names.map((value, i) => made('option', { value }, choice_labels[i])));
+    select.append(...names.map((value, i) => made('option', { value }, label_of(`${id}.${value}`, choice_labels[i]!))));
     select.addEventListener('change', () => this.set(id, select.value));
     line.append(select);
     return { show: (value) => (select.value = value as string), disable: (off) => (select.disabled = off) };
@@ -90,7 +91,7 @@ export class ParameterControls {
     const { id, kind, empty_means, least = 0, most = largest } = row;
     const is_number = kind === 'number' || kind === 'whole';
     const input = made('input', { ...attributes, type: is_number ? 'number' : 'text', autocomplete: 'off' });
-    if (empty_means) input.placeholder = typographic(empty_means);
+    if (empty_means) input.placeholder = typographic(label_of(`${id}.empty`, empty_means));
     if (is_number) {
       input.step = kind === 'whole' ? '1' : 'any';
       input.inputMode = kind === 'whole' ? 'numeric' : 'decimal';

@@ -1,6 +1,6 @@
 // The bar below the picture of a file with several frames: time line, play, step, speed and loop.
 import { element } from './dom';
-import { grouped } from './words';
+import { grouped, words } from './words';
 import type { PlayAction, PlayerState } from './protocol';
 
 export class PlayerBar {
@@ -39,7 +39,7 @@ export class PlayerBar {
     this.bar.hidden = state.frames < 2;
     element('stage').classList.toggle('plays', state.frames > 1);
     if (state.frames < 2) return;
-    const word = state.playing ? 'Pause' : 'Play';
+    const word = state.playing ? words.player.pause : words.player.play;
     if (this.toggle.getAttribute('aria-label') !== word) {
       this.toggle.setAttribute('aria-label', word);
       this.toggle.textContent = state.playing ? '❚❚' : '▶';
@@ -55,6 +55,6 @@ export class PlayerBar {
   private say(frame: number, last: number, time_ps: number | null): void {
     const time = time_ps === null ? '' : `, ${+time_ps.toPrecision(6)} ps`;
     this.words.textContent = `${grouped(frame)} / ${grouped(last)}${time}`;
-    this.line.setAttribute('aria-valuetext', `frame ${grouped(frame)} of 0 to ${grouped(last)}${time}`);
+    this.line.setAttribute('aria-valuetext', `${words.player.at(grouped(frame), grouped(last))}${time}`);
   }
 }

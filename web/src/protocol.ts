@@ -237,6 +237,7 @@ export type Request =
   | { type: 'measure_union'; selection: string; probe: number } // of the shown frame
   | { type: 'histogram'; attribute: string }
   | { type: 'picture'; id: number; width_px: number; height_px: number }
+  | { type: 'preview'; width_px: number; height_px: number }
   | ({ type: 'film'; id: number } & FilmRequest)
   | { type: 'picture_cancel' } // and of a film
   | { type: 'play'; action: PlayAction }
@@ -265,6 +266,7 @@ export type Answer =
   | { type: 'contents'; contents: Contents | null; legend: LegendKey[] } // null: as before
   | { type: 'picture_progress'; done: number }
   | { type: 'picture'; picture: Blob | null } // null: cancelled
+  | { type: 'preview'; picture: Blob | null } // null: not just now
   | { type: 'film_progress'; done: number }
   | { type: 'film'; film: Blob | null } // null: cancelled
   | { type: 'thesis_progress'; progress: ThesisProgress }

@@ -1,5 +1,6 @@
 // The controls of how a file is read: one for each row of the library's table (src/bihive/io/reading_settings.h).
 import { element, made } from './dom';
+import { label_of } from './language';
 import type { BuiltIn, Facts, Reading, Source } from './protocol';
 import type { ReadingId } from './settings';
 
@@ -45,7 +46,7 @@ export class ReadingControls {
       Object.assign(input, kind === 'number' ? { min: '0', step: 'any', inputMode: 'decimal' } : { spellcheck: false, autocomplete: 'off' });
       input.placeholder = row.empty_means;
       const box = made('div', { class: kind === 'flag' ? 'row check' : 'row' });
-      box.append(made('label', { for: id }, row.label), input);
+      box.append(made('label', { for: id }, label_of(`reading.${id}`, row.label)), input);
       input.addEventListener('change', () => this.change(row));
       return { row, box, input };
     });

@@ -2,11 +2,14 @@
 import { element } from './dom';
 import { save } from './download';
 import { busy, fail, note } from './messages';
+import { words } from './words';
 
 export interface SavingActions {
   /** Asks for the picture; returns the request's id. */
   draw(width_px: number, height_px: number): number;
   cancel(): void;
+  /** Another size is chosen. */
+  resized(): void;
 }
 
 const most_side = 16384; // as the library's
@@ -21,22 +24,22 @@ const wide_cm = (cm: number): Size => ({ width, height }) => {
   return { width: px, height: Math.round((px * height) / width) };
 };
 
-const sizes: [words: string, size: Size | null][] = [
-  ['as on the screen', times(1)],
-  ['2 × the screen', times(2)],
-  ['4 × the screen', times(4)],
-  ['slide', fixed(1920, 1080)],
-  ['square', fixed(2000, 2000)],
-  ['one column, 8.5 cm at 300 dpi', wide_cm(8.5)],
-  ['two columns, 17.8 cm at 300 dpi', wide_cm(17.8)],
-  ['other', null],
+const sizes: [label: string, size: Size | null][] = [
+  [words.saving.sizes.screen, times(1)],
+  [words.saving.sizes.twice, times(2)],
+  [words.saving.sizes.four_times, times(4)],
+  [words.saving.sizes.slide, fixed(1920, 1080)],
+  [words.saving.sizes.square, fixed(2000, 2000)],
+  [words.saving.sizes.one_column, wide_cm(8.5)],
+  [words.saving.sizes.two_columns, wide_cm(17.8)],
+  [words.saving.sizes.other, null],
 ];
 
 // Where there is a clipboard for pictures: on a secure page alone.
 const can_copy = () => 'clipboard' in navigator && 'ClipboardItem' in globalThis;
 
 export class Saving {
-  private readonly size = element<HTMLSelectElement>('save_size');
+  private readonly list = element<HTMLSelectElement>('save_size');
   private readonly width = element<HTMLInputElement>('save_width');
   private readonly height = element<HTMLInputElement>('save_height');
   private readonly start = element<HTMLButtonElement>('save');
@@ -49,10 +52,13 @@ export class Saving {
   private forget_cancelled = () => {}; // the words about the last one
 
   constructor(private readonly actions: SavingActions) {
-    this.size.append(...sizes.map(([words]) => Object.assign(document.createElement('option'), { textContent: words })));
-    this.size.addEventListener('change', () => this.fit());
+    this.list.append(...sizes.map(([label]) => Object.assign(document.createElement('option'), { textContent: label })));
+    this.list.addEventListener('change', () => this.fit());
     for (const input of [this.width, this.height])
-      input.addEventListener('input', () => (this.size.selectedIndex = sizes.length - 1));
+      input.addEventListener('input', () => {
+        this.list.selectedIndex = sizes.length - 1;
+        actions.resized();
+      });
     this.start.addEventListener('click', () => this.begin());
     this.copy.addEventListener('click', () => this.begin_copy());
     this.cancel.addEventListener('click', () => actions.cancel());
@@ -74,20 +80,28 @@ export class Saving {
   private fit(): void {
     for (const [i, [, size]] of sizes.entries()) {
       const { width, height } = size?.(this.screen) ?? { width: 0, height: 0 };
-      this.size.options[i]!.disabled = width * height > this.most_pixels || Math.max(width, height) > most_side;
+      this.list.options[i]!.disabled = width * height > this.most_pixels || Math.max(width, height) > most_side;
     }
-    if (this.size.selectedOptions[0]?.disabled) this.size.selectedIndex = 0;
-    const [, size] = sizes[this.size.selectedIndex]!;
+    if (this.list.selectedOptions[0]?.disabled) this.list.selectedIndex = 0;
+    const [, size] = sizes[this.list.selectedIndex]!;
     if (!size) return;
     const { width, height } = size(this.screen);
     this.width.value = String(width);
     this.height.value = String(height);
+    this.actions.resized();
   }
 
   /** The wanted size; null: a field has none. */
+  size(): { width: number; height: number } | null {
+    if (!this.width.validity.valid || !this.height.validity.valid) return null;
+    const [width, height] = [Number(this.width.value), Number(this.height.value)];
+    return width > 0 && height > 0 ? { width, height } : null;
+  }
+
+  /** The same; the browser says what is wrong with a field. */
   chosen(): { width: number; height: number } | null {
     if (!this.width.reportValidity() || !this.height.reportValidity()) return null;
-    return { width: Number(this.width.value), height: Number(this.height.value) };
+    return this.size();
   }
 
   private begin(): boolean {
@@ -96,7 +110,7 @@ export class Saving {
     this.forget_cancelled();
     this.to_clipboard = null;
     this.set_running(true);
-    busy('Drawing the picture');
+    busy(words.saving.drawing);
     this.id = this.actions.draw(size.width, size.height);
     return true;
   }
@@ -114,9 +128,9 @@ export class Saving {
     });
     picture.catch(() => {});
     navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]).then(
-      () => note('The picture is copied.'),
+      () => note(words.saving.copied),
       (error: Error) => {
-        if (came) fail(`The picture could not be copied: ${error.message}. Save it instead.`);
+        if (came) fail(words.saving.not_copied(error.message));
       },
     );
   }
@@ -132,7 +146,7 @@ export class Saving {
   }
 
   progress(done: number): void {
-    if (!this.cancel.hidden) busy(`Drawing the picture: ${Math.floor(100 * done)} %`, done);
+    if (!this.cancel.hidden) busy(`${words.saving.drawing}: ${Math.floor(100 * done)} %`, done);
   }
 
   /** `picture` null: cancelled. */
@@ -143,7 +157,7 @@ export class Saving {
     this.to_clipboard = null;
     if (copied) copied(picture);
     else if (picture) save(picture, `${scene.replace(/.*\//, '').replace(/\.[^.]*$/, '')}.png`);
-    if (!picture) this.forget_cancelled = note('The picture was cancelled.');
+    if (!picture) this.forget_cancelled = note(words.saving.cancelled);
   }
 
   failed(id: number | null): void {

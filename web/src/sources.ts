@@ -2,6 +2,7 @@
 import { add_options, element } from './dom';
 import { busy } from './messages';
 import type { BuiltIn, Choices, Files, Reading, Source } from './protocol';
+import { words } from './words';
 
 /** A scene to load, and its files unless it is built in. */
 export interface Wanted {
@@ -41,7 +42,7 @@ async function with_progress(response: Response, name: string): Promise<ArrayBuf
     if (at + value.byteLength > length) throw new Error(`${name}: the server sends more than it announced`);
     bytes.set(value, at);
     at += value.byteLength;
-    busy(`Fetching ${name}`, at / length);
+    busy(words.fetching(name), at / length);
   }
 }
 

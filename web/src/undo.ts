@@ -1,23 +1,13 @@
 // Undo and redo: buttons and keys over the history of the shown scene.
 import { element } from './dom';
+import { label_of } from './language';
 import { History, type Past, type Snapshot } from './history';
 import type { Parameter } from './parameter';
 import { speak } from './messages';
 import { is_typing } from './typing';
+import { words } from './words';
 
-// Members without a control of the table.
-const words: Record<string, string> = {
-  reading: 'how the file is read',
-  replicate: 'copies',
-  focus_on: 'focus',
-  element_colours: 'colours of elements',
-  colour_by: 'colours',
-  nan_colour: 'colour of unknown numbers',
-  crease: 'lines between',
-  floor: 'floor',
-  floor_up: 'floor',
-  rows: 'looks of selections',
-};
+const texts = words.undo;
 
 export interface UndoActions {
   /** Shows this state. */
@@ -48,7 +38,7 @@ export class Undo {
 
   /** The library's table, for the names of what changes. */
   name_by(parameters: Parameter[]): void {
-    this.labels = new Map(parameters.map(({ id, label, long_label }) => [id, long_label ?? label ?? id]));
+    this.labels = new Map(parameters.map(({ id, label, long_label }) => [id, label_of(id, long_label ?? label ?? id)]));
   }
 
   /** The next state that is noted is the user's. */
@@ -83,7 +73,7 @@ export class Undo {
     if (!state) return;
     this.acted = false;
     this.show();
-    speak(`${by < 0 ? 'Undone' : 'Redone'}: ${what}`);
+    speak(by < 0 ? texts.undone(what) : texts.redone(what));
     this.actions.restore(state, by);
   }
 
@@ -99,8 +89,8 @@ export class Undo {
 
   private words(by: -1 | 1): string {
     const members = this.history.next(by) ?? [];
-    const names = members.slice(0, 2).map((member) => words[member] ?? this.labels.get(member) ?? member.replaceAll('_', ' '));
-    return names.join(', ') + (members.length > 2 ? ' and more' : '');
+    const names = members.slice(0, 2).map((member) => texts.members[member] ?? this.labels.get(member) ?? member.replaceAll('_', ' '));
+    return names.join(', ') + (members.length > 2 ? texts.more : '');
   }
 
   private show(): void {
@@ -109,8 +99,8 @@ export class Undo {
       const able = this.history.next(by) !== null;
       // Disabling it would take the focus of a keyboard away from it.
       button.setAttribute('aria-disabled', String(!able));
-      const [name, keys] = by < 0 ? ['Undo', 'Ctrl+Z'] : ['Redo', 'Shift+Ctrl+Z'];
-      button.title = able ? `${name} ${this.words(by)} (${keys})` : `Nothing to ${id}`;
+      const [name, keys, nothing] = by < 0 ? [texts.undo, 'Ctrl+Z', texts.nothing_to_undo] : [texts.redo, 'Shift+Ctrl+Z', texts.nothing_to_redo];
+      button.title = able ? `${name} ${this.words(by)} (${keys})` : nothing;
       button.setAttribute('aria-label', able ? `${name} ${this.words(by)}` : name);
     }
     this.actions.changed(this.history.past);

@@ -66,6 +66,14 @@ const information = (duration_ms: number) =>
     element(0x4489, real(duration_ms)), element(0x4d80, text('bihive')), element(0x5741, text('bihive')),
   );
 
+// BT.709 with limited range (film_pixels.ts): matrix, range, transfer, primaries, and where the colours of four pixels belong.
+const colours = () =>
+  element(
+    0x55b0,
+    element(0x55b1, whole(1)), element(0x55b9, whole(1)), element(0x55ba, whole(1)), element(0x55bb, whole(1)),
+    element(0x55b7, whole(1)), element(0x55b8, whole(2)),
+  );
+
 const track = ({ codec, width, height }: FilmFormat) =>
   element(
     0x1654ae6b,
@@ -73,7 +81,7 @@ const track = ({ codec, width, height }: FilmFormat) =>
       0xae,
       element(0xd7, whole(1)), element(0x73c5, whole(1)), element(0x83, whole(1)), // number, id, video
       element(0x9c, whole(0)), element(0x86, text(codec)), // no lacing
-      element(0xe0, element(0xb0, whole(width)), element(0xba, whole(height))),
+      element(0xe0, element(0xb0, whole(width)), element(0xba, whole(height)), colours()),
     ),
   );
 

@@ -1,9 +1,12 @@
-// What the page says to people, as far as scripts say it: for another language these are what changes, and index.html.
+// What the page says to people, as far as scripts say it. Other languages replace these, and the texts of index.html (language.ts).
 
-const whole = new Intl.NumberFormat('en', { maximumFractionDigits: 0 });
+let whole: Intl.NumberFormat | undefined;
 
-/** 12345 as "12,345". */
-export const grouped = (count: number): string => whole.format(count);
+/** 12345 as "12,345", or as the page's language writes it. */
+export const grouped = (count: number): string =>
+  (whole ??= new Intl.NumberFormat(document.documentElement.lang, { maximumFractionDigits: 0 })).format(count);
+
+export type Words = typeof words;
 
 export const words = {
   light_labels: {
@@ -44,6 +47,74 @@ export const words = {
       `${count === 0 ? 'No cavities' : `${count} ${count === 1 ? 'cavity' : 'cavities'} of ${volume}`}; ${components === 1 ? 'in one piece' : `in ${components} pieces`}`,
     undecided: 'Cavities could not be told apart in this arrangement.',
     of: (spheres: string) => `Of ${spheres} spheres, with their radii as read.`,
+  },
+  starting: 'Starting',
+  drawing: 'Drawing',
+  loading: (name: string) => `Loading ${name}`,
+  fetching: (name: string) => `Fetching ${name}`,
+  dismiss: 'Dismiss',
+  no_picture: 'No picture',
+  saving: {
+    drawing: 'Drawing the picture',
+    cancelled: 'The picture was cancelled.',
+    copied: 'The picture is copied.',
+    not_copied: (why: string) => `The picture could not be copied: ${why}. Save it instead.`,
+    sizes: {
+      screen: 'as on the screen', twice: '2 × the screen', four_times: '4 × the screen', slide: 'slide', square: 'square',
+      one_column: 'one column, 8.5 cm at 300 dpi', two_columns: 'two columns, 17.8 cm at 300 dpi', other: 'other',
+    },
+  },
+  scene: {
+    spheres: (count: string, one: boolean) => `${count} ${one ? 'sphere' : 'spheres'}`,
+    atoms: (count: string, one: boolean) => `${count} ${one ? 'atom' : 'atoms'}`,
+    frames: (count: string) => `${count} frames`,
+  },
+  player: { play: 'Play', pause: 'Pause', at: (frame: string, last: string) => `frame ${frame} of 0 to ${last}` },
+  pins: {
+    measures: ['', '', 'Distance', 'Angle', 'Dihedral'] as string[], // by their number
+    of_nearest_images: ', of nearest images',
+    pinned: (what: string) => `Pinned: ${what}`,
+    no_longer: (what: string) => `No longer pinned: ${what}`,
+  },
+  whose: { style: 'the style’s', file: 'the file’s', lines_of_style: 'the style’s lines', lines_of_file: 'the file’s lines' },
+  none: 'none',
+  kept: {
+    nothing: 'This browser keeps nothing for the page: a reload begins anew.',
+    forgotten: 'Nothing is kept any more: a reload begins anew.',
+    too_large: (name: string, size: string, most: string) => `${name} is too large to be kept for a reload: ${size}, of ${most} at most.`,
+    changes: 'A reload brings back your changes: they are kept in this browser for a day.',
+    file_and_changes: (name: string) => `A reload brings back ${name} and your changes: they are kept in this browser for a day.`,
+  },
+  ask: {
+    made_for: (file: string) => `This link was made for your file ${file}. It is not in the link: open it to see it as it was.`,
+    open: (file: string) => `Open ${file}…`,
+    other: (name: string, file: string) => `${name} is open. The link was made for ${file}, which it still waits for.`,
+  },
+  link: {
+    asks_for: (file: string) => `It asks for the file ${file}, which is not in it.`,
+    copied: 'The link is copied.',
+    in_address: 'The link is in the address bar: this browser does not let the page copy it.',
+    share: 'Share link',
+  },
+  page_saved: (megabytes: string) => `The page has ${megabytes} MB. It opens by itself, without a network, on a phone too.`,
+  several_files: (name: string) => `Several files were chosen; this is ${name}.`,
+  engine: {
+    software: 'WebGL2 is drawn by software here: the CPU engine is faster.',
+    missing: 'This browser gives the page no WebGL2, so the GPU engine cannot be chosen: the CPU engine draws.',
+  },
+  about: (version: string, threads: number, requests: boolean) =>
+    `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. ${requests ? "No request leaves this page's server" : 'This page makes no requests'}.`,
+  lacking: (what: string) => `This browser has no ${what}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`,
+  row_waits: (value: string, example: string) => `It waits for ${value}: ${example}`,
+  undo: {
+    undo: 'Undo', redo: 'Redo',
+    undone: (what: string) => `Undone: ${what}`, redone: (what: string) => `Redone: ${what}`,
+    nothing_to_undo: 'Nothing to undo', nothing_to_redo: 'Nothing to redo',
+    more: ' and more',
+    members: {
+      reading: 'how the file is read', replicate: 'copies', focus_on: 'focus', element_colours: 'colours of elements', colour_by: 'colours',
+      nan_colour: 'colour of unknown numbers', crease: 'lines between', floor: 'floor', floor_up: 'floor', rows: 'looks of selections',
+    } as Record<string, string>,
   },
   heights: { whole: 'Whole window', half: 'Half the window' },
 };

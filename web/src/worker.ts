@@ -36,6 +36,7 @@ let frame_pending = false;
 let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
 let saving: PictureRun | FilmRun | null = null;
+let previewing: Promise<void> | null = null; // saving is the preview
 let thesis: { device: string; cancelled: boolean; saved: number } | null = null; // saved: configurations
 let thesis_run: ThesisRun | null = null;
 
@@ -395,6 +396,8 @@ function histogram({ attribute }: Request & { type: 'histogram' }): void {
 
 // A picture or a film to be saved. No frames are drawn meanwhile.
 async function save<Run extends PictureRun | FilmRun>(run: Run, draw: (run: Run) => Promise<Answer>): Promise<void> {
+  if (previewing) saving?.cancel();
+  await previewing;
   if (!has_scene || thesis || saving) throw new BadInput('There is no picture to be saved just now');
   apply_moves();
   apply_look();
@@ -415,6 +418,26 @@ const picture = (request: Request & { type: 'picture' }) =>
     const { samples_per_pixel } = settings();
     return { type: 'picture', picture: await run.draw({ ...request, samples_per_pixel }) };
   });
+
+// In few samples; anything else is more important.
+const preview_samples = 4;
+
+async function preview(request: Request & { type: 'preview' }): Promise<void> {
+  let picture: Blob | null = null;
+  if (has_scene && !thesis && !saving) {
+    const run = new PictureRun(page, () => {});
+    saving = run;
+    try {
+      picture = await run.draw({ ...request, samples_per_pixel: Math.min(preview_samples, settings().samples_per_pixel) });
+    } catch {
+      // "Save picture" would say why.
+    } finally {
+      saving = null;
+      ask_for_frame();
+    }
+  }
+  send({ type: 'preview', picture });
+}
 
 const film = (request: Request & { type: 'film' }) =>
   save(new FilmRun(page, (done) => send({ type: 'film_progress', done })), async (run) => ({ type: 'film', film: await run.draw(request) }));
@@ -578,6 +601,12 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return attempt(null, () => histogram(request));
     case 'picture':
       return attempt(request.id, () => picture(request));
+    case 'preview':
+      if (previewing) return;
+      previewing = preview(request);
+      await previewing;
+      previewing = null;
+      return;
     case 'film':
       return attempt(request.id, () => film(request));
     case 'picture_cancel':

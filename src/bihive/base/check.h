@@ -3,18 +3,16 @@
 // Bad input is never a CHECK: it is a returned Error (base/result.h).
 #pragma once
 
-#include <sstream>
 #include <string>
 
 namespace bihive::detail {
 
 [[noreturn]] void check_failed(const char* file, int line, const std::string& what);
 
+// Not by streams: they bring every locale into the page's module.
 template <class A, class B>
 [[noreturn]] void check_failed(const char* file, int line, const char* expression, const A& a, const B& b) {
-  std::ostringstream what;
-  what << expression << " (" << a << " against " << b << ")";
-  check_failed(file, line, what.str());
+  check_failed(file, line, expression + (" (" + std::to_string(a) + " against " + std::to_string(b)) + ")");
 }
 
 }  // namespace bihive::detail

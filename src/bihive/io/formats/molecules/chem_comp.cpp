@@ -13,6 +13,7 @@
 #include "bihive/base/parse_number.h"
 #include "bihive/io/formats/molecules/cif_connections.h"
 #include "bihive/io/formats/molecules/cif_elements.h"
+#include "bihive/io/formats/molecules/cif_errors.h"
 #include "bihive/io/text/text_scanner.h"
 
 namespace bihive {
@@ -126,7 +127,7 @@ Result<std::optional<RawSpheres>> read_chem_comp(std::string_view text, const st
   namespace cif = gemmi::cif;
   cif::Document document;
   tao::pegtl::memory_input<> input(text.data(), text.size(), file);
-  tao::pegtl::parse<cif::rules::file, cif::Action, cif::Errors>(input, document);
+  tao::pegtl::parse<cif::rules::file, cif::Action, CifErrors>(input, document);
   std::vector<std::pair<cif::Block*, const PlaceTags*>> monomers;
   for (cif::Block& block : document.blocks)
     if (const PlaceTags* place = best_places(block)) monomers.emplace_back(&block, place);

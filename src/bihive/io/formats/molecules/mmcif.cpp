@@ -18,6 +18,7 @@
 #include "bihive/io/formats/molecules/cif.h"
 #include "bihive/io/formats/molecules/cif_connections.h"
 #include "bihive/io/formats/molecules/cif_elements.h"
+#include "bihive/io/formats/molecules/cif_errors.h"
 #include "bihive/io/formats/molecules/cif_rows.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/io/text/title.h"
@@ -407,7 +408,7 @@ Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, st
   AtomSites sites(file, frame);
   try {
     tao::pegtl::memory_input<> input(text.data(), text.size(), file);
-    tao::pegtl::parse<rules::file, Action, gemmi::cif::Errors>(input, sites);
+    tao::pegtl::parse<rules::file, Action, CifErrors>(input, sites);
     Result<RawSpheres> spheres = sites.finish();
     if (spheres || !sites.holds_monomers_alone()) return spheres;
     Result<std::optional<RawSpheres>> monomer = read_chem_comp(text, file, frame);
@@ -415,10 +416,8 @@ Result<RawSpheres> read_mmcif(std::string_view text, const std::string& file, st
     return *monomer ? std::move(**monomer) : std::move(spheres);
   } catch (const Stop& stop) {
     return stop.error;
-  } catch (const tao::pegtl::parse_error& e) {
-    const tao::pegtl::position at = e.positions().empty() ? tao::pegtl::position(1, 1, 1, file) : e.positions().front();
-    return Error{"this is no CIF: " + std::string(e.message()), file, static_cast<std::int64_t>(at.line),
-                 static_cast<std::int64_t>(at.column), ""};
+  } catch (const CifFault& fault) {
+    return fault.in(file);
   } catch (const std::exception& e) {
     return Error{"reading CIF failed: " + std::string(e.what()), file, 0, 0, ""};
   }

@@ -8,6 +8,7 @@
 #include "bihive/io/elements.h"
 #include "bihive/io/formats/format.h"
 #include "bihive/io/text/fields.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -37,6 +38,11 @@ bool is_number(const std::string& word) {
 // POTCAR's names may have a kind behind them (Fe_pv, Si/1a2b).
 std::string without_kind(const std::string& name) {
   return name.substr(0, name.find_first_of("_/"));
+}
+
+bool all_are_elements(const std::vector<std::string>& words) {
+  return std::all_of(words.begin(), words.end(),
+                     [](const std::string& name) { return atomic_number(without_kind(name)) > 0; });
 }
 
 bool is_configuration(std::string_view line) {
@@ -134,6 +140,8 @@ class VaspReader {
   // From the comment, which is the present line, to the counts.
   Status read_head() {
     const std::vector<std::string> comment = words_on(scanner_);
+    // Elements alone are no title.
+    title_ = all_are_elements(comment) ? std::string() : title_from(scanner_.line());
     if (!scanner_.next_line()) return cut("a factor");
     const std::size_t factors = words_on(scanner_).size();
     Vec3d factor;
@@ -180,9 +188,7 @@ class VaspReader {
       // Old files have no names; their comment often has them.
       const std::size_t counts = names.size();
       names = comment;
-      names_from_comment_ = comment.size() == counts &&
-                            std::all_of(comment.begin(), comment.end(),
-                                        [](const std::string& name) { return atomic_number(without_kind(name)) > 0; });
+      names_from_comment_ = comment.size() == counts && all_are_elements(comment);
       if (!names_from_comment_) names.assign(counts, "");
     } else if (!scanner_.next_line()) {
       return cut("the number of atoms of each name");
@@ -227,6 +233,7 @@ class VaspReader {
   // Names that are elements become elements; if some are not, all become types.
   void finish() {
     spheres_.cell = cell_;
+    spheres_.title = title_;
     bool all_known = true, any_known = false;
     std::string names;
     for (const Species& one : species_) {
@@ -258,6 +265,7 @@ class VaspReader {
   RawSpheres spheres_;
   Vec3d factor_;
   Cell cell_;
+  std::string title_;
   std::vector<Species> species_;
   bool names_from_comment_ = false;
   std::int64_t atoms_ = 0, count_line_ = 0;

@@ -12,9 +12,11 @@
 #include "bihive/io/assemble/unit_cell.h"
 #include "bihive/io/formats/molecules/cif.h"
 #include "bihive/io/formats/molecules/cif_elements.h"
+#include "bihive/io/formats/molecules/cif_errors.h"
 #include "bihive/io/formats/molecules/cif_symmetry.h"
 #include "bihive/io/formats/molecules/listed_images.h"
 #include "bihive/io/text/text_scanner.h"
+#include "bihive/io/text/title.h"
 
 namespace bihive {
 namespace {
@@ -39,6 +41,7 @@ class CrystalReader {
     if (Status cell = read_cell(); !cell) return cell.error();
     if (Status operations = read_operations(); !operations) return operations.error();
     read_formula();
+    read_title();
     if (Status sites = read_sites(); !sites) return sites.error();
     finish();
     return std::move(spheres_);
@@ -103,6 +106,17 @@ class CrystalReader {
       elements_.add_formula(gemmi::cif::as_string(*formula));
     for (const std::string& symbol : block_.find_values("_atom_type_symbol"))
       elements_.add_type_symbol(gemmi::cif::as_string(symbol));
+  }
+
+  // The name of the substance, else the title of the publication.
+  void read_title() {
+    for (const char* const tag :
+         {"_chemical_name_common", "_chemical_name_mineral", "_chemical_name_systematic", "_publ_section_title"}) {
+      const std::string* const value = block_.find_value(tag);
+      if (value == nullptr || gemmi::cif::is_null(*value)) continue;
+      spheres_.title = title_from(gemmi::cif::as_string(*value));
+      if (!spheres_.title.empty()) return;
+    }
   }
 
   Status read_sites() {
@@ -268,7 +282,7 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
     namespace cif = gemmi::cif;
     cif::Document document;
     tao::pegtl::memory_input<> input(text.data(), text.size(), file);
-    tao::pegtl::parse<cif::rules::file, cif::Action, cif::Errors>(input, document);
+    tao::pegtl::parse<cif::rules::file, cif::Action, CifErrors>(input, document);
     std::int64_t frames = 0;
     cif::Block* wanted = nullptr;
     for (cif::Block& block : document.blocks) {
@@ -284,10 +298,8 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
       if (frames > 1) spheres->rules.push_back("frame: the data block " + quote(wanted->name));
     }
     return spheres;
-  } catch (const tao::pegtl::parse_error& e) {
-    const tao::pegtl::position at = e.positions().empty() ? tao::pegtl::position(1, 1, 1, file) : e.positions().front();
-    return Error{"this is no CIF: " + std::string(e.message()), file, static_cast<std::int64_t>(at.line),
-                 static_cast<std::int64_t>(at.column), ""};
+  } catch (const CifFault& fault) {
+    return fault.in(file);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
