@@ -146,7 +146,7 @@ struct Core {
 /// The spheres that no other encloses. A ray that comes to a core before its hit may meet one of those that are left
 /// out.
 struct OuterTree {
-  WideTree tree;            ///< under the ids of the whole set; it knows all repeated spheres
+  WideTree tree;            ///< under the ids of the whole set; `repeated` has those with an equal in its leaves
   std::vector<Core> cores;  ///< together they hold every sphere that is left out
   WideTree around_cores;    ///< the enclosing spheres: sphere i has core i
 
