@@ -2,6 +2,7 @@
 
 #include <emscripten/bind.h>
 
+#include <thread>
 #include <utility>
 
 #include "answers.h"
@@ -68,7 +69,11 @@ std::string Figure::draw(const emscripten::val& progress) {
     const CollectedWarnings collected(warnings);
     std::string place(kFolder);
     place.pop_back();
-    again_ = draw_again(request_again(record_, place, "", {}), [&progress](double done) { progress(done); });
+    // Any thread may report; JavaScript's function is that of this one.
+    const auto this_one = std::this_thread::get_id();
+    again_ = draw_again(request_again(record_, place, "", {}), [&](double done) {
+      if (std::this_thread::get_id() == this_one) progress(done);
+    });
     return std::string("{}");
   });
 }
