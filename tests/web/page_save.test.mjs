@@ -64,6 +64,10 @@ test('the card shows in small what will be saved, with its shape and background'
     assert_same_picture(png, await saved_picture(page, ...shape), `${width} x ${height}`);
     await settled(page);
   }
+  // Another size while one is drawn.
+  await page.fill('#save_width', '900');
+  await page.waitForTimeout(230);
+  await drawn(640, 480);
   const before = await page.getAttribute('#save_preview', 'src');
   await page.click('#save_clear');
   await page.waitForFunction((src) => document.getElementById('save_preview').src !== src, before);

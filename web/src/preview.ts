@@ -19,6 +19,7 @@ export class Preview {
   private open = false;
   private timer = 0;
   private made_of = ''; // what the last one was asked for
+  private waits = false; // for it
 
   constructor(private readonly actions: PreviewActions) {}
 
@@ -35,6 +36,7 @@ export class Preview {
 
   /** null: it could not be drawn just now. */
   take(picture: Blob | null): void {
+    this.waits = false;
     if (!picture) {
       this.made_of = '';
       return;
@@ -43,14 +45,16 @@ export class Preview {
     this.image.src = URL.createObjectURL(picture);
     this.image.hidden = false;
     if (before) URL.revokeObjectURL(before);
+    this.follow(); // what changed meanwhile
   }
 
   private ask(): void {
     const size = this.actions.size();
-    if (!this.open || !size || !this.actions.at_rest()) return;
+    if (!this.open || this.waits || !size || !this.actions.at_rest()) return;
     const made_of = `${size.width} ${size.height} ${this.actions.state()}`;
     if (made_of === this.made_of) return;
     this.made_of = made_of;
+    this.waits = true;
     const scale = Math.min(most_width / size.width, most_height / size.height, 1);
     this.actions.draw(Math.max(1, Math.round(scale * size.width)), Math.max(1, Math.round(scale * size.height)));
   }

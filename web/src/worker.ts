@@ -602,8 +602,7 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
     case 'picture':
       return attempt(request.id, () => picture(request));
     case 'preview':
-      if (previewing) return;
-      previewing = preview(request);
+      previewing = preview(request); // the page asks for one at a time
       await previewing;
       previewing = null;
       return;
