@@ -439,15 +439,14 @@ void add_convert(CLI::App& app, ConvertOptions& options, Request& request) {
                                   "bihive convert demo -o calphas.extxyz --select 'name CA'", options, request);
   add_input(command, options.input);
   add_path(command, "-o,--output", options.output, "The file; - is the standard output");
-  add_value(
-      command, "--format", options.format, "xyz|extxyz|csv|npy|ply|sdf|mol2|scene",
-      "What to write (by the output's ending: .xyz .extxyz .csv .npy .ply .sdf .mol .mol2 .json)",
-      [](const std::string& text) -> Result<std::string> {
-        static constexpr const char* formats[] = {"xyz", "extxyz", "csv", "npy", "ply", "sdf", "mol2", "scene"};
-        for (const char* format : formats)
-          if (text == format) return text;
-        return unexpected("xyz, extxyz, csv, npy, ply, sdf, mol2 or scene", text);
-      });
+  add_value(command, "--format", options.format, "xyz|extxyz|csv|npy|ply|sdf|mol2|scene",
+            "What to write (by the output's ending: .xyz .extxyz .csv .npy .ply .sdf .mol .mol2 .json)",
+            [](const std::string& text) -> Result<std::string> {
+              static constexpr const char* formats[] = {"xyz", "extxyz", "csv", "npy", "ply", "sdf", "mol2", "scene"};
+              for (const char* format : formats)
+                if (text == format) return text;
+              return unexpected("xyz, extxyz, csv, npy, ply, sdf, mol2 or scene", text);
+            });
   command.add_option("--select", options.select, "Only these spheres: docs/selections.md")->type_name("EXPR");
   add_input_options(command, options.input);
   add_json_flag(command, options.json);
