@@ -7,6 +7,7 @@
 
 #include "bihive/io/bundled.h"
 #include "bihive/math/rng.h"
+#include "bihive/select/residue_words.h"
 #include "support/periodic_cells.h"
 #include "support/read_text.h"
 
@@ -70,6 +71,20 @@ TEST(Selection, CountsAtomsOfAMolecule) {
   EXPECT_EQ(count_in_protease("resname 478"), 35u);
   EXPECT_EQ(count_in_protease("within 5 of resname 478"), 138u);
   EXPECT_EQ(count_in_protease("chain A and resid 10..20"), 81u);
+}
+
+// Names that force fields give to residues; the reader of PDB files knows the same ones.
+TEST(Selection, ResiduesOfSimulations) {
+  for (const char* name : {"ALA", "MSE", "ASX", "HIE", "NALA", "CALA", "CYS2", "ACE"})
+    EXPECT_TRUE(is_protein_residue(name)) << name;
+  for (const char* name : {"DA", "PSU", "DA5", "RA3", "DAN", "URA"}) EXPECT_TRUE(is_nucleic_residue(name)) << name;
+  for (const char* name : {"HOH", "WAT", "TIP5", "OPC", "T5P", "SOLV", "OH2"})
+    EXPECT_TRUE(is_water_residue(name)) << name;
+  for (const char* name : {"478", "NA", "CHOL", "POPC", "GOL"}) {
+    EXPECT_FALSE(is_protein_residue(name)) << name;
+    EXPECT_FALSE(is_nucleic_residue(name)) << name;
+    EXPECT_FALSE(is_water_residue(name)) << name;
+  }
 }
 
 TEST(Selection, ComparesNumbers) {

@@ -4,16 +4,14 @@
 #include <gemmi/resinfo.hpp>
 #include <iterator>
 
+#include "bihive/io/residue_class.h"
+
 namespace bihive {
 namespace {
 
-// States of protonation and ends of chains in the files of AMBER and CHARMM.
-constexpr std::string_view kMoreProtein[] = {"HID", "HIE", "HIP", "HSD", "HSE", "HSP", "CYX", "CYM",
-                                             "ASH", "GLH", "LYN", "ASX", "GLX", "ACE", "NME", "NMA"};
-constexpr std::string_view kMoreNucleic[] = {"DA5", "DC5", "DG5", "DT5", "DA3", "DC3", "DG3", "DT3", "RA",
-                                             "RC",  "RG",  "RU",  "ADE", "CYT", "GUA", "THY", "URA"};
-constexpr std::string_view kMoreWater[] = {"WAT", "H2O", "TIP", "TIP2", "TIP3", "TIP4", "TP3",
-                                           "T3P", "T4P", "SOL", "SPC",  "SPCE", "OH2",  "DOD"};
+// Of selections alone: residues that are one of two amino acids.
+constexpr std::string_view kEitherProtein[] = {"ASX", "GLX"};
+constexpr std::string_view kMoreWater[] = {"OH2"};
 // Monatomic ions of the PDB's chemical components, their names in AMBER, CHARMM and GROMACS, and common groups.
 constexpr std::string_view kIons[] = {
     "LI",  "NA",  "K",   "RB",  "CS",  "MG",  "CA",  "SR",  "BA",  "MN",  "MN3", "FE",  "FE2", "CO",
@@ -32,15 +30,18 @@ bool holds(const List& list, std::string_view name) {
 }  // namespace
 
 bool is_protein_residue(const std::string& residue) {
-  return gemmi::find_tabulated_residue(residue).is_amino_acid() || holds(kMoreProtein, residue);
+  const ResidueClass known = class_of_residue(residue);
+  return known == ResidueClass::protein || known == ResidueClass::modified_protein || holds(kEitherProtein, residue) ||
+         gemmi::find_tabulated_residue(residue).is_amino_acid();
 }
 
 bool is_nucleic_residue(const std::string& residue) {
-  return gemmi::find_tabulated_residue(residue).is_nucleic_acid() || holds(kMoreNucleic, residue);
+  const ResidueClass known = class_of_residue(residue);
+  return known == ResidueClass::nucleic || known == ResidueClass::modified_nucleic;
 }
 
 bool is_water_residue(const std::string& residue) {
-  return gemmi::find_tabulated_residue(residue).is_water() || holds(kMoreWater, residue);
+  return class_of_residue(residue) == ResidueClass::water || holds(kMoreWater, residue);
 }
 
 bool is_ion_residue(const std::string& residue) {

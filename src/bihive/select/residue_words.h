@@ -6,8 +6,8 @@
 
 namespace bihive {
 
-/// By a residue's name. Amino and nucleic acids are those of gemmi's table [Wojdyr2022]; to these come names that
-/// simulation programs use.
+/// By a residue's name: those of gemmi's table [Wojdyr2022], and those that simulation programs use
+/// (io/residue_class.h).
 bool is_protein_residue(const std::string& residue);
 bool is_nucleic_residue(const std::string& residue);
 bool is_water_residue(const std::string& residue);

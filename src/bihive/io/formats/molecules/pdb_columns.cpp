@@ -46,9 +46,9 @@ bool ResidueNames::has_four_letters(std::string_view columns) {
   if (columns == last_) return last_has_four_;
   last_ = columns;
   const bool two_for_chain = columns.size() > 4 && columns[4] != ' ';
-  if (PdbElements::is_known_residue(columns.substr(0, 4))) {
+  if (class_of_residue(columns.substr(0, 4)) != ResidueClass::unknown) {
     last_has_four_ = true;
-  } else if (PdbElements::is_known_residue(columns.substr(0, 3))) {
+  } else if (class_of_residue(columns.substr(0, 3)) != ResidueClass::unknown) {
     last_has_four_ = false;
     has_chains_of_two_ = has_chains_of_two_ || two_for_chain;
   } else {

@@ -1,7 +1,6 @@
 #include "bihive/io/formats/molecules/pdb_elements.h"
 
 #include <algorithm>
-#include <gemmi/resinfo.hpp>
 #include <iterator>
 
 #include "bihive/base/ascii.h"
@@ -17,18 +16,6 @@ template <class List>
 bool is_in(const List& sorted, std::string_view text) {
   return std::binary_search(std::begin(sorted), std::end(sorted), text);
 }
-
-// Names that force fields give to standard residues; gemmi's table has those of the Protein Data Bank. All lists are
-// sorted.
-constexpr std::string_view kProteinNames[] = {
-    "ACE",  "ARGN", "ASH", "ASPH", "ASPP", "CT3",  "CYM",  "CYN",  "CYS1", "CYS2", "CYSH", "CYSP", "CYX",  "FOR", "GLH",
-    "GLUH", "GLUP", "HID", "HIE",  "HIP",  "HIS1", "HIS2", "HISA", "HISB", "HISD", "HISE", "HISH", "HISP", "HSC", "HSD",
-    "HSE",  "HSP",  "HYP", "LSN",  "LYN",  "LYSH", "NAC",  "NH2",  "NHE",  "NLE",  "NMA",  "NME",  "NTER", "QLN"};
-constexpr std::string_view kNucleicNames[] = {"ADE", "CYT", "DAN", "DCN", "DGN", "DTN", "GUA", "RA", "RAN",
-                                              "RC",  "RCN", "RG",  "RGN", "RU",  "RUN", "THY", "URA"};
-constexpr std::string_view kWaterNames[] = {"DOD",  "H2O",  "HOH", "OPC",  "OPC3", "SOL", "SOLV", "SPC",  "SPCE",
-                                            "T3H",  "T3P",  "T4E", "T4P",  "T5P",  "TIP", "TIP2", "TIP3", "TIP4",
-                                            "TIP5", "TIPS", "TP3", "TP3M", "TP4",  "TP5", "WAT"};
 
 struct IonName {
   std::string_view name;
@@ -101,40 +88,12 @@ int element_by_likelihood(std::string_view name, bool alone) {
 
 }  // namespace
 
-PdbElements::Class PdbElements::class_of(std::string_view residue) {
-  std::string name = upper_case(residue);
-  if (name == "UNK") return Class::unknown;  // any molecule, in many programs
-  if (name == "W" || name == "WF" || name == "PW") return Class::bead;
-  if (is_in(kWaterNames, name)) return Class::water;
-  if (is_in(kProteinNames, name)) return Class::protein;
-  if (is_in(kNucleicNames, name)) return Class::nucleic;
-
-  // Amber marks ends: NALA, CALA; DA5, RA3, DAN.
-  const auto standard_class = [](const std::string& text) {
-    const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(text);
-    using Info = gemmi::ResidueInfo;
-    if (info.kind == Info::HOH) return Class::water;
-    if (info.is_nucleic_acid()) return info.is_standard() ? Class::nucleic : Class::modified;
-    if (info.is_amino_acid()) return info.is_standard() ? Class::protein : Class::modified;
-    if (info.kind == Info::PYR || info.kind == Info::KET) return Class::sugar;
-    return Class::unknown;
-  };
-  if (name.size() == 4 && (name[0] == 'N' || name[0] == 'C')) {
-    const std::string inner = name.substr(1);
-    if (is_in(kProteinNames, inner) || standard_class(inner) == Class::protein) return Class::protein;
-  }
-  if ((name.size() == 2 || name.size() == 3) && (name.back() == '3' || name.back() == '5')) {
-    const std::string inner = name.substr(0, name.size() - 1);
-    if (is_in(kNucleicNames, inner) || standard_class(inner) == Class::nucleic) return Class::nucleic;
-  }
-  return standard_class(name);
-}
-
 // The element of an atom in a residue of this class; 0: certainly none (a bead, a place without mass); nothing: unsure.
-std::optional<int> PdbElements::element_in(Class residue_class, std::string_view residue, std::string_view name) {
+std::optional<int> PdbElements::element_in(ResidueClass residue_class, std::string_view residue,
+                                           std::string_view name) {
   if (const int ion = ion_element(residue, name)) return ion;
-  if (residue_class == Class::unknown) return std::nullopt;
-  if (residue_class == Class::bead) return 0;
+  if (residue_class == ResidueClass::unknown) return std::nullopt;
+  if (residue_class == ResidueClass::bead) return 0;
   const std::string bare = from_first_letter(name);
   if (bare.empty()) return std::nullopt;
   const char first = bare[0];
@@ -142,9 +101,9 @@ std::optional<int> PdbElements::element_in(Class residue_class, std::string_view
   if (first == 'O') return kOxygen;
   // The fourth and fifth site of some models: M, MW, EP, LP, IW.
   constexpr std::string_view massless = "EILM";
-  if (residue_class == Class::water)
+  if (residue_class == ResidueClass::water)
     return massless.find(first) == std::string_view::npos ? std::nullopt : std::optional<int>(0);
-  if (residue_class == Class::protein) {
+  if (residue_class == ResidueClass::protein) {
     // Coarse grains of Martini; sulfur is in cysteine and methionine alone.
     if (bare == "BB" || (bare.size() == 3 && bare.substr(0, 2) == "SC" && is_digit(bare[2]))) return 0;
     const std::string of = upper_case(residue);
@@ -153,7 +112,7 @@ std::optional<int> PdbElements::element_in(Class residue_class, std::string_view
     if (first == 'S' && selenium) return kSelenium;
     if (first == 'S') return sulfur ? std::optional<int>(kSulfur) : std::nullopt;
   }
-  if (residue_class == Class::modified) {
+  if (is_modified(residue_class)) {
     const std::string two = bare.substr(0, 2);
     if (two == "SE") return kSelenium;
     if (two == "AS" || two == "CL" || two == "BR" || two == "FE") return atomic_number(two);
@@ -164,7 +123,7 @@ std::optional<int> PdbElements::element_in(Class residue_class, std::string_view
     case 'N':
       return kNitrogen;
     case 'P':
-      return residue_class == Class::protein ? std::nullopt : std::optional<int>(kPhosphorus);
+      return residue_class == ResidueClass::protein ? std::nullopt : std::optional<int>(kPhosphorus);
     case 'S':
       return kSulfur;
     default:
@@ -194,8 +153,8 @@ void PdbElements::add(const ElementClues& clues) {
     end_residue();
     place_ = clues.place;
     residue_ = clues.residue;
-    class_ = class_of(clues.residue);
-    if (class_ == Class::unknown) class_ = class_of(clues.residue.substr(0, 3));
+    class_ = class_of_residue(clues.residue);
+    if (class_ == ResidueClass::unknown) class_ = class_of_residue(clues.residue.substr(0, 3));
   }
   ++residue_size_;
 
@@ -204,7 +163,7 @@ void PdbElements::add(const ElementClues& clues) {
   const int stated_element = atomic_number(stated);
   const std::optional<int> expected = element_in(class_, clues.residue, clues.name);
   if (stated_element != 0 || stated == "X" || stated == "x") {
-    const bool sure = expected && *expected != 0 && class_ != Class::modified && class_ != Class::sugar;
+    const bool sure = expected && *expected != 0 && !is_modified(class_) && class_ != ResidueClass::sugar;
     if (stated_element != 0 && sure && *expected != stated_element) {
       if (contradictions_++ == 0) {
         first_contradiction_ = clues.line_number;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bihive/io/raw_spheres.h"
+#include "bihive/io/residue_class.h"
 
 namespace bihive {
 
@@ -30,9 +31,6 @@ class PdbElements {
   /// `names_in_columns`: false where a name's place on the line means nothing (PQR, GRO).
   explicit PdbElements(bool names_in_columns) : names_in_columns_(names_in_columns) {}
 
-  /// Whether it is a residue of proteins, nucleic acids, water or sugars, a modified one, or a bead.
-  static bool is_known_residue(std::string_view name) { return class_of(name) != Class::unknown; }
-
   /// The next atom.
   void add(const ElementClues& clues);
 
@@ -40,8 +38,6 @@ class PdbElements {
   void take(RawSpheres& spheres, const std::string& file);
 
  private:
-  enum class Class { unknown, protein, nucleic, water, sugar, modified, bead };
-
   // An atom that neither its columns nor its residue decides.
   struct Undecided {
     std::size_t index;
@@ -49,8 +45,7 @@ class PdbElements {
     char name[4];
   };
 
-  static Class class_of(std::string_view residue);
-  static std::optional<int> element_in(Class residue_class, std::string_view residue, std::string_view name);
+  static std::optional<int> element_in(ResidueClass residue_class, std::string_view residue, std::string_view name);
   void count_evidence(const ElementClues& clues, std::optional<int> element);
   void end_residue();
 
@@ -59,7 +54,7 @@ class PdbElements {
   std::vector<Undecided> undecided_;
   std::vector<std::size_t> residue_sizes_;  // of residues with undecided atoms
   std::string place_, residue_;             // of the present residue
-  Class class_ = Class::unknown;
+  ResidueClass class_ = ResidueClass::unknown;
   std::size_t residue_size_ = 0;
   bool residue_undecided_ = false;
   std::int64_t flush_left_ = 0,
