@@ -1,11 +1,12 @@
 """bihive compare: the same bits from all structures, counts that do not depend on threads, the JSON's schema, the report."""
 
+import base64
 import html.parser
 import json
 import os
 
 import jsonschema
-from program import ProgramTest, main
+from program import ProgramTest, main, png_pixels, png_size
 
 SOURCE = os.environ.get("BIHIVE_SOURCE", os.path.join(os.path.dirname(__file__), "../.."))
 STRUCTURES = "wide bih bvh-sah bvh-lbvh bvh-ploc kd-sah octree grid pkd brute".split()
@@ -148,7 +149,9 @@ class Compare(ProgramTest):
         self.assertIn("Structures for <b>&.xyz", text)
         self.assertNotIn("b", page.tags)
         self.assertNotIn("script", page.tags)
-        self.assertEqual(page.links, ["data:,"])
+        self.assertEqual(page.links[0], "data:,")
+        for link in page.links[1:]:
+            self.assertTrue(link.startswith("data:image/png;base64,"), link[:60])
         self.assertIn("Every structure gave the same answers, bit for bit.", text)
         self.assertNotIn("{{", text)
         for name in STRUCTURES:
@@ -160,6 +163,23 @@ class Compare(ProgramTest):
         self.assertNotIn("What a step costs", done.stdout)
         self.assertTrue(done.stdout.startswith("<!DOCTYPE html>"))
         self.assertIn("Every answer has the bits", done.stderr)
+
+    def test_report_shows_where_the_steps_are(self):
+        """A picture for each structure, on one scale: brute force has the same steps everywhere, a tree has not."""
+        self.succeed("compare", "four-spheres", *FEW, "--rays", "primary", "-o", "report.html")
+        page = Page(self.read("report.html").decode())
+        pictures = [link.split(",")[1] for link in page.links if link.startswith("data:image/png")]
+        self.assertEqual(len(pictures), len(STRUCTURES))
+        colours = {}
+        for name, text in zip(STRUCTURES, pictures):
+            png = base64.b64decode(text)
+            self.assertEqual(png_size(png), (192, 192))
+            colours[name] = {pixel for row in png_pixels(png) for pixel in row}
+        self.assertEqual(len(colours["brute"]), 1)
+        self.assertGreater(len(colours["bvh-sah"]), 2)
+        text = " ".join(page.words)
+        self.assertIn("4 at most", text)
+        self.assertIn("Where the steps are", text)
 
     def test_refusals(self):
         for words, part in (

@@ -69,7 +69,7 @@ class Documentation(ProgramTest):
         from bihive import _options
 
         known = set(_options.ONE_VALUE + _options.FLAGS + _options.SWITCHES + _options.SIZES + _options.ACTIONS + ["light"])
-        spelt = {"--" + name.replace("_", "-") for name in known} | {"--no-" + name for name in _options.SWITCHES}
+        spelt = {"--" + name.replace("_", "-") for name in known} | {"--no-" + name.replace("_", "-") for name in _options.SWITCHES}
         self.assertEqual(options - spelt - elsewhere, set())
         self.assertEqual(spelt - options, set())
 

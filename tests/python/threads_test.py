@@ -104,7 +104,7 @@ class Threads(ProgramTest):
         points, xyz = np.zeros((20, 3)), tree.spheres.xyz
         arguments = {"closest": RAYS, "occluded": RAYS, "all_hits": RAYS, "nearest": (points, 3), "within": (points, 1.0),
                      "contains": (points,), "overlaps": (points, 0.5), "count_within": (points, 0.5), "pairs": (0.1,)}
-        ray = (*RAYS, None, None, None, None, None)
+        ray = ((*RAYS, None, None, None, None), None)
         arguments |= {"core.closest": (*ray, True, False), "core.occluded": (*ray, False, True),
                       "core.all_hits": (*ray, False),
                       "core.surfaces": (*RAYS, None, np.full(len(RAYS[0]), np.inf), np.full(len(RAYS[0]), -1), False, True),
