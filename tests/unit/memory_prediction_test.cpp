@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -93,7 +94,10 @@ TEST(MemoryPrediction, FilmsTakeWhatIsPredicted) {
       settings.height_px = height;
       settings.threads = 2;
       settings.transparent = transparent;
-      expect_near(predict_film_bytes(settings, 1000.0 * height), measured_of(settings),
+      // On a busy machine a thread may get its first tile, and with it its buffers, here: then the second picture
+      // counts.
+      const double measured = std::min(measured_of(settings), measured_of(settings));
+      expect_near(predict_film_bytes(settings, 1000.0 * height), measured,
                   "a film of 1000 x " + std::to_string(height) + (transparent ? ", transparent" : ""));
     }
 }
