@@ -1,6 +1,6 @@
 // The page beside Mol*, NGL and 3Dmol.js: a PDB file as spheres in one Chromium, each viewer as it comes and, where it has them,
 // with ambient occlusion and shadows. Visits alternate. Prints JSON.
-//   node viewers.mjs FILE.pdb REPETITIONS
+//   node viewers.mjs FILE.pdb REPETITIONS [NAME]     NAME: of those viewers alone
 // Run in a folder with playwright-core, molstar, ngl and 3dmol from npm. Environment: BIHIVE, the program, which serves the page;
 // CHROMIUM, the browser.
 // Times: from the visit to the first picture with spheres; frames that a viewer draws per second while the scene turns for a few

@@ -72,7 +72,6 @@ struct WideBuilder::State {
   Collapse collapse;
   std::vector<std::uint16_t> cells;
   std::vector<std::uint32_t> cell_counts;
-  std::vector<EqualSphere> equal;  // of the latest build_all(), in no order
 
   std::unique_ptr<WideTree> take_spare() {
     const std::lock_guard lock(mutex);
@@ -91,8 +90,8 @@ struct WideBuilder::State {
                        std::vector<std::int64_t>& begins);
   std::vector<SplitRange> split_cells(const CellGrid& grid, const std::vector<std::int64_t>& begins,
                                       std::int64_t most_spheres, BinaryNode& root);
-  void build_all(const SphereSet& spheres, const WideParameters& parameters, int threads, std::int64_t most_ids,
-                 WideTree& tree, WatchedWork& work);
+  std::vector<EqualSphere> build_all(const SphereSet& spheres, const WideParameters& parameters, int threads,
+                                     std::int64_t most_ids, WideTree& tree, WatchedWork& work);
   void build_part(const SphereSet& spheres, const std::vector<std::int64_t>& ids, const WideParameters& parameters,
                   int threads, WideTree& tree, WatchedWork& work);
   std::vector<EqualSphere> build_without_others(const SphereSet& spheres, const WideParameters& parameters, int threads,
@@ -224,9 +223,10 @@ void WideBuilder::State::split(const SphereSet& spheres, const InputSummary& sum
   wide::close_tops(root);
 }
 
-// Puts every sphere in a leaf. The ids need room for `most_ids` of them.
-void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameters& parameters, int threads,
-                                   std::int64_t most_ids, WideTree& tree, WatchedWork& work) {
+// Puts every sphere in a leaf. The ids need room for `most_ids` of them. Returns the equal spheres, in no order.
+std::vector<EqualSphere> WideBuilder::State::build_all(const SphereSet& spheres, const WideParameters& parameters,
+                                                       int threads, std::int64_t most_ids, WideTree& tree,
+                                                       WatchedWork& work) {
   const std::int64_t count = spheres.size();
   tree.scale = spheres.scale();
   tree.origin = spheres.origin();
@@ -239,7 +239,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   tree.levels = 0;
   tree.largest_leaf = 0;
   tree.spheres = {};
-  if (count == 0) return;
+  if (count == 0) return {};
 
   // Examine the spheres, and allocate their arrays.
   const InputSummary summary = summarize(spheres, Chunks(count), threads);
@@ -277,7 +277,6 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   tree.nodes = nodes;
   tree.levels = collapse.levels();
   tree.largest_leaf = collapse.largest_leaf();
-  equal = std::move(context.equal);
   WideSpheres& result = tree.spheres;
   result.x = context.final.x;
   result.y = context.final.y;
@@ -287,6 +286,7 @@ void WideBuilder::State::build_all(const SphereSet& spheres, const WideParameter
   result.has_palette = has_palette;
   result.palette_size = !has_palette ? 0 : summary.palette.has_zero ? 32 : summary.palette.size;
   std::copy(context.palette, context.palette + 32, result.palette.begin());
+  return std::move(context.equal);
 }
 
 // Builds the tree of some spheres, ascending, under the ids of the whole set.
@@ -307,8 +307,7 @@ void WideBuilder::State::build_part(const SphereSet& spheres, const std::vector<
 std::vector<EqualSphere> WideBuilder::State::build_without_others(const SphereSet& spheres,
                                                                   const WideParameters& parameters, int threads,
                                                                   WideTree& tree, WatchedWork& work) {
-  build_all(spheres, parameters, threads, spheres.size(), tree, work);
-  std::vector<EqualSphere> equal_in_set = std::move(equal);
+  std::vector<EqualSphere> equal_in_set = build_all(spheres, parameters, threads, spheres.size(), tree, work);
   sort_equal(equal_in_set);
   find_piles(equal_in_set, tree.piles, tree.others_in_piles);
   if (tree.piles.empty()) return equal_in_set;
