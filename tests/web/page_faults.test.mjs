@@ -264,25 +264,31 @@ test('a scene that turns for two seconds announces nothing', async () => {
   await context.close();
 });
 
-test('without JavaScript, or without OffscreenCanvas, the page says so', async () => {
+test('without JavaScript, OffscreenCanvas or exceptions of WebAssembly, the page says so', async () => {
   const context = await browser.newContext({ javaScriptEnabled: false });
   const page = await context.newPage();
   await page.goto(server.url);
   assert.match(await page.innerText('body'), /JavaScript is\s+switched off here/);
   await context.close();
 
-  const lacking = await browser.newContext();
-  await lacking.addInitScript(() => {
-    delete window.OffscreenCanvas;
-    delete HTMLCanvasElement.prototype.transferControlToOffscreen;
-  });
-  const poor = await lacking.newPage();
-  const faults = [];
-  poor.on('pageerror', (error) => faults.push(error.message));
-  await poor.goto(server.url);
-  assert.match(await shown_error(poor), /This browser has no OffscreenCanvas, so the page cannot draw/);
-  assert.deepEqual(faults, []);
-  await lacking.close();
+  const without = {
+    OffscreenCanvas: () => {
+      delete window.OffscreenCanvas;
+      delete HTMLCanvasElement.prototype.transferControlToOffscreen;
+    },
+    'WebAssembly exceptions': () => delete WebAssembly.Tag,
+  };
+  for (const [what, script] of Object.entries(without)) {
+    const lacking = await browser.newContext();
+    await lacking.addInitScript(script);
+    const poor = await lacking.newPage();
+    const faults = [];
+    poor.on('pageerror', (error) => faults.push(error.message));
+    await poor.goto(server.url);
+    assert.match(await shown_error(poor), new RegExp(`This browser has no ${what}, so the page cannot draw. Chrome 95, `));
+    assert.deepEqual(faults, []);
+    await lacking.close();
+  }
 });
 
 test('a long molecule stays in the picture while it turns', async () => {

@@ -1,6 +1,7 @@
 // The page: it starts the worker, shows the worker's answers, and passes on the user's actions.
 import { start_language } from './language'; // first: the others take their words from it
 import { watch_badge } from './badge';
+import { able_browsers, lacking } from './browser_needs';
 import { Controls } from './controls';
 import { Cards } from './cards';
 import { Cut } from './cut';
@@ -685,13 +686,6 @@ function listen_for_samples(): void {
     });
 }
 
-// The missing features of the browser, or nothing.
-function lacking(): string {
-  if (typeof WebAssembly === 'undefined') return 'WebAssembly';
-  const has_canvas = typeof OffscreenCanvas !== 'undefined' && 'transferControlToOffscreen' in HTMLCanvasElement.prototype;
-  return has_canvas ? '' : 'OffscreenCanvas';
-}
-
 async function start(): Promise<void> {
   start_theme(follow_theme);
   start_language();
@@ -699,7 +693,7 @@ async function start(): Promise<void> {
   keep_for_offline();
   const lack = lacking();
   if (lack !== '') {
-    fail(texts.lacking(lack));
+    fail(texts.lacking(lack, able_browsers));
     element('badge').hidden = true;
     picture.setAttribute('aria-label', texts.no_picture);
     element('tools').inert = true;

@@ -104,7 +104,7 @@ export const words = {
   },
   about: (version: string, threads: number, requests: boolean) =>
     `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. ${requests ? "No request leaves this page's server" : 'This page makes no requests'}.`,
-  lacking: (what: string) => `This browser has no ${what}, so the page cannot draw. Chrome and Edge 69, Firefox 105, Safari 17 and newer ones have it.`,
+  lacking: (what: string, browsers: string) => `This browser has no ${what}, so the page cannot draw. ${browsers} and newer ones have it.`,
   row_waits: (value: string, example: string) => `It waits for ${value}: ${example}`,
   undo: {
     undo: 'Undo', redo: 'Redo',

@@ -273,7 +273,7 @@ const catalogue: Catalogue = {
     },
     about: (version, threads, requests) =>
       `bihive ${version}, ${threads === 1 ? 'ein Thread' : `${threads} Threads`}. ${requests ? 'Keine Anfrage verlässt den Server dieser Seite' : 'Diese Seite stellt keine Anfragen'}.`,
-    lacking: (what) => `Diesem Browser fehlt ${what}, daher kann die Seite nicht zeichnen. Chrome und Edge 69, Firefox 105, Safari 17 und neuere haben es.`,
+    lacking: (what, browsers) => `Diesem Browser fehlt ${what}, daher kann die Seite nicht zeichnen. ${browsers} und neuere haben es.`,
     row_waits: (value, example) => `Es fehlt noch ein Wert (${value}): ${example}`,
     undo: {
       undo: 'Rückgängig:', redo: 'Wiederholen:', undone: (what) => `Rückgängig gemacht: ${what}`, redone: (what) => `Wiederholt: ${what}`,

@@ -273,7 +273,7 @@ const catalogue: Catalogue = {
     },
     about: (version, threads, requests) =>
       `bihive ${version}, ${threads === 1 ? 'un hilo' : `${threads} hilos`}. ${requests ? 'Ninguna petición sale del servidor de esta página' : 'Esta página no hace peticiones'}.`,
-    lacking: (what) => `A este navegador le falta ${what}, así que la página no puede dibujar. Chrome y Edge 69, Firefox 105, Safari 17 y posteriores lo tienen.`,
+    lacking: (what, browsers) => `A este navegador le falta ${what}, así que la página no puede dibujar. ${browsers} y posteriores lo tienen.`,
     row_waits: (value, example) => `Falta un valor (${value}): ${example}`,
     undo: {
       undo: 'Deshacer', redo: 'Rehacer', undone: (what) => `Deshecho: ${what}`, redone: (what) => `Rehecho: ${what}`,

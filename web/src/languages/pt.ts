@@ -273,7 +273,7 @@ const catalogue: Catalogue = {
     },
     about: (version, threads, requests) =>
       `bihive ${version}, ${threads === 1 ? 'uma thread' : `${threads} threads`}. ${requests ? 'Nenhuma requisição sai do servidor desta página' : 'Esta página não faz requisições'}.`,
-    lacking: (what) => `Falta ${what} a este navegador, por isso a página não pode desenhar. Chrome e Edge 69, Firefox 105, Safari 17 e mais novos têm.`,
+    lacking: (what, browsers) => `Falta ${what} a este navegador, por isso a página não pode desenhar. ${browsers} e mais novos têm.`,
     row_waits: (value, example) => `Falta um valor (${value}): ${example}`,
     undo: {
       undo: 'Desfazer', redo: 'Refazer', undone: (what) => `Desfeito: ${what}`, redone: (what) => `Refeito: ${what}`,

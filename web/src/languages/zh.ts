@@ -261,7 +261,7 @@ const catalogue: Catalogue = {
     several_files: (name) => `选择了多个文件；这是 ${name}。`,
     engine: { software: '这里的 WebGL2 由软件绘制：CPU 引擎更快。', missing: '此浏览器不向页面提供 WebGL2，因此不能选择 GPU 引擎：由 CPU 引擎绘制。' },
     about: (version, threads, requests) => `bihive ${version}，${threads} 个线程。${requests ? '没有请求离开此页面的服务器' : '此页面不发出请求'}。`,
-    lacking: (what) => `此浏览器没有 ${what}，因此页面无法绘制。Chrome 和 Edge 69、Firefox 105、Safari 17 及更新版本具备。`,
+    lacking: (what, browsers) => `此浏览器没有 ${what}，因此页面无法绘制。${browsers} 及更新版本具备。`,
     row_waits: (value, example) => `还缺少一个值 (${value})：${example}`,
     undo: {
       undo: '撤销', redo: '重做', undone: (what) => `已撤销：${what}`, redone: (what) => `已重做：${what}`,
