@@ -1,12 +1,13 @@
 // Structures of bihive.h, compared and tuned.
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bihive.h"
+#include "bihive/base/parse_number.h"
 #include "bihive/compare/comparison.h"
 #include "bihive/compare/comparison_json.h"
 #include "bihive/compare/tune.h"
@@ -21,12 +22,7 @@ namespace {
 std::vector<std::string> names_of(const char* text) {
   std::vector<std::string> names;
   if (text == nullptr) return names;
-  const std::string all = text;
-  for (std::size_t begin = 0; begin <= all.size();) {
-    const std::size_t end = std::min(all.find(',', begin), all.size());
-    names.push_back(all.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  for (const std::string_view name : parts_of(text, ',')) names.emplace_back(name);
   return names;
 }
 

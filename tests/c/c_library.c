@@ -343,6 +343,7 @@ static void test_structures(const bihive_tree* tree) {
   json = (char*)&json;
   EXPECT_ERROR(bihive_compare(tree, "bhi", NULL, 64, 1, &json), "did you mean bih");
   EXPECT(json == NULL);
+  EXPECT_ERROR(bihive_compare(tree, "bih,bih", "random", 64, 1, &json), "bih stands twice");
   EXPECT_ERROR(bihive_compare(tree, NULL, "random,random", 64, 1, &json), "twice");
   EXPECT_ERROR(bihive_compare(tree, NULL, "sideways", 64, 1, &json), "there are primary, random");
   EXPECT_ERROR(bihive_compare(tree, NULL, NULL, 0, 1, &json), "1 to 1073741824");

@@ -1,6 +1,7 @@
 #include "bihive/compare/comparison.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -45,6 +46,8 @@ class Run {
     for (const std::string& name : options_.structures) {
       const Result<StructureRow> row = structure_named(name);
       if (!row) return row.error();
+      const auto is_it = [&](const StructureRow& other) { return std::string_view(other.name) == row->name; };
+      if (std::any_of(rows.begin(), rows.end(), is_it)) return Error{name + " stands twice", "", 0, 0, "leave one out"};
       rows.push_back(*row);
     }
     if (rows.empty()) rows = structures();
