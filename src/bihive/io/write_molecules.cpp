@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bihive/base/parse_number.h"
 #include "bihive/base/readable.h"
 #include "bihive/io/elements.h"
 
@@ -41,7 +42,7 @@ std::string coordinate_text(double value) {
 // Whether four decimals in ten columns read as the same binary32.
 bool fits_columns(double value) {
   const std::string text = fmt::format("{:.4f}", value);
-  return text.size() <= 10 && static_cast<float>(std::stod(text)) == static_cast<float>(value);
+  return text.size() <= 10 && static_cast<float>(parse_double(text).value_or(0)) == static_cast<float>(value);
 }
 
 // Attributes that have no place in the format.
@@ -58,7 +59,7 @@ void note_attributes(const SphereSet& spheres, const std::vector<std::string>& h
   written.left_out.push_back(names + ": the format has no place for them");
 }
 
-// What the format says of charges; null: nothing is known of them, or they are not whole.
+// The charges to write; null: the set has none, or some are not whole.
 const NamedNumbers* whole_charges(const SphereSet& spheres) {
   const NamedNumbers* const charge = spheres.attributes().find_numbers("charge");
   if (charge == nullptr) return nullptr;
