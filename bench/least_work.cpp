@@ -32,7 +32,7 @@ class CountedRay {
  public:
   CountedRay(const WideTree& tree, const Ray& ray) : tree_(tree), ray_(ray, tree.scale) {}
 
-  // Where the segment enters the box of a child, or +inf.
+  // Returns the t at which the segment enters the box of a child, or +inf.
   double entry(const WideNode& node, int slot, double t_end) const {
     double t_in = ray_.t_min, t_out = t_end;
     for (int axis = 0; axis < 3; ++axis) {

@@ -16,7 +16,7 @@
 
 namespace bihive::window {
 
-/// Where the panel lies: at the right border, or in a tall, narrow window at the lower one.
+/// The panel's edge of the window: the right one, or in a tall, narrow window the lower one.
 struct PanelPlace {
   bool below = false;
   float extent = 0;  ///< its width, or below its height, in ImGui's units

@@ -24,7 +24,7 @@ Result<double> number_from_text(const std::string& text, double least, double mo
 Result<std::int64_t> whole_number_from_text(const std::string& text, std::int64_t least,
                                             std::int64_t most = std::numeric_limits<std::int64_t>::max());
 
-/// What stands between separators: one part more than there are separators.
+/// Splits at each separator: n separators give n + 1 parts, some of which may be empty.
 std::vector<std::string_view> parts_of(std::string_view text, char separator);
 
 /// The numbers between commas; empty if one is none.

@@ -178,7 +178,7 @@ class SphereSet {
   double radius(std::int64_t id) const { return stored_radius(id) * inverse_scale(); }
   double inverse_scale() const { return std::ldexp(1.0, -scale_exponent_); }
   /// The smallest box around all spheres and images (radius 0 too), in world units as binary64: lo and hi. An empty set
-  /// has lo = inf and hi = -inf. Where spheres lie on several ranks: those of this rank alone (WholeSet has all).
+  /// has lo = inf and hi = -inf. With spheres on several ranks: the box of this rank's own; WholeSet has that of all.
   struct Bounds {
     Vec3d lo, hi;
   };

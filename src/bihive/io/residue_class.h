@@ -1,4 +1,4 @@
-// What a residue is, by its name: the names of the Protein Data Bank, and those that force fields give.
+// Classifies residues by name: names of the Protein Data Bank and of force fields.
 #pragma once
 
 #include <string_view>

@@ -89,8 +89,7 @@ class Tracer {
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const;
 
   /// Every sphere and stick that each ray meets, once, by ray, then by t, then by id. `found` is cleared first. t is
-  /// where the ray enters the body, or exits it if its segment begins inside: where closest_hit() of this body alone
-  /// would be.
+  /// that of closest_hit() for the body alone: the ray enters it there, or exits it if its segment begins inside.
   void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const;
 
   /// The hits of a camera's rays through the centres of a tile's pixels, row by row: hit i is that of pixel (x0 + i %

@@ -30,9 +30,9 @@ constexpr double kRadiusOfDashes = 0.36;  ///< of the dashed stick of an aromati
 /// in the order of ids, then those of the second, then the neighbours of neighbours. Of a molecule on one line the
 /// plane holds the world axis that is closest to a right angle with the bond, of equal ones x before y before z.
 ///
-/// An aromatic bond is a stick on the axis, and a dashed one towards the centre of its ring, as long as a ring of this
-/// distance inside the other is: of the smallest ring of at most 8 aromatic bonds, of equal ones the first in the order
-/// of ids. In no such ring, the dashed one lies in the plane above.
+/// An aromatic bond is a stick on the axis and a dashed one inside its ring: parallel to the axis, and shortened as the
+/// ring is towards its centre. The ring is the smallest of at most 8 aromatic bonds, of equal ones the first in the
+/// order of ids. Without one, the dashed stick lies in the plane described above.
 ///
 /// A bond to an image has stubs, and a bond that `is_parted` names is parted in the middle, as StickSet::between().
 std::vector<OwnStick> parallel_sticks(const SphereSet& spheres, const std::vector<ImagePair>& bonds,

@@ -19,7 +19,7 @@ void add_connections(const std::vector<CifRow>& rows, const std::string& marks, 
 /// alternate location, or of none.
 void add_component_bonds(const std::vector<CifRow>& rows, const std::string& marks, RawSpheres& spheres);
 
-/// Of the values of value_order and pdbx_aromatic_flag.
+/// The order that value_order and pdbx_aromatic_flag state.
 BondOrder order_of_component_bond(const std::string& value_order, bool is_aromatic);
 
 }  // namespace bihive
