@@ -259,6 +259,13 @@ std::string Page::pick(double x_px, double y_px) const {
   });
 }
 
+std::string Page::ray_paths(double x_px, double y_px) const {
+  return with_memory([&] {
+    const Result<std::string> json = viewer_.ray_paths_json(x_px, y_px);
+    return json ? *json : failure(json.error());
+  });
+}
+
 std::string Page::picked_json(const Picked& picked) const {
   auto json = *json_from_text<ordered_json>(picked_to_json(picked, viewer_.scene()));
   json["sphere"] = input_id(viewer_.scene(), picked.sphere);
@@ -427,5 +434,6 @@ EMSCRIPTEN_BINDINGS(page) {
       .function("step_picture", &Page::step_picture)
       .function("take_picture", &Page::take_picture)
       .function("drop_picture", &Page::drop_picture)
+      .function("ray_paths", &Page::ray_paths)
       .function("statistics", &Page::statistics);
 }

@@ -99,6 +99,8 @@ class Page {
   std::string contents() const;
   std::string legend() const;
   std::string histogram(const std::string& attribute, int bins) const;
+  /// The way of the ray through (x, y): Viewer::ray_paths_json().
+  std::string ray_paths(double x_px, double y_px) const;
   std::string statistics() const { return viewer_.statistics_json(); }
 
   // A picture to be saved, one step for each call. frame() and set() drop it.

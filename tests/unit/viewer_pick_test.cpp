@@ -91,6 +91,43 @@ TEST(Pick, finds_nothing_without_a_scene_or_in_the_view_of_the_tree) {
   EXPECT_FALSE(*in_tree);
 }
 
+TEST(RayPaths, pass_the_spheres_under_a_point_by_the_ids_of_the_input) {
+  Viewer viewer;
+  EXPECT_FALSE(viewer.ray_paths_json(1, 1));
+  two_spheres(viewer);
+  ViewerLook look = viewer.look();
+  look.rows = {{"index 0", "hide", ""}};
+  ASSERT_TRUE(viewer.set_look(look));
+  const Result<std::string> text = viewer.ray_paths_json(column_of(2), kPickHeight / 2.0);
+  ASSERT_TRUE(text) << text.error().to_string();
+  const auto json = nlohmann::json::parse(*text);
+  ASSERT_EQ(json.at("structures").size(), 2u);
+  const Result<std::optional<Picked>> picked = viewer.pick(column_of(2), kPickHeight / 2.0);
+  ASSERT_TRUE(picked && *picked);
+  for (const auto& path : json.at("structures")) {
+    SCOPED_TRACE(path.at("name"));
+    EXPECT_EQ(path.at("id"), 1);
+    EXPECT_NEAR(path.at("t").get<double>(), (*picked)->distance, 1e-5);
+    EXPECT_EQ(path.at("sphere_tests"), 1);
+    EXPECT_EQ(path.at("steps").back().at("spheres"), nlohmann::json{1});
+  }
+  const Result<std::string> beside = viewer.ray_paths_json(kPickWidth / 2.0, kPickHeight / 2.0);
+  ASSERT_TRUE(beside);
+  for (const auto& path : nlohmann::json::parse(*beside).at("structures")) EXPECT_TRUE(path.at("t").is_null());
+}
+
+TEST(RayPaths, are_refused_where_rays_take_other_ways_than_among_whole_spheres) {
+  Viewer viewer;
+  two_spheres(viewer);
+  ViewerLook look = viewer.look();
+  look.rows = {{"", "clip", "plane:1,0,0,2"}};
+  const auto set = viewer.set_look(look);
+  ASSERT_TRUE(set) << set.error().to_string();
+  const Result<std::string> text = viewer.ray_paths_json(column_of(2), kPickHeight / 2.0);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().message, "paths are those of rays among whole spheres");
+}
+
 TEST(Contents, lists_groups_whose_selections_mean_as_many_spheres_also_where_some_are_hidden) {
   Viewer viewer;
   ASSERT_TRUE(viewer.load_built_in("demo"));

@@ -48,6 +48,32 @@ function printed(file, option, ids) {
   return Number(lines.at(-1).split(',').at(-1));
 }
 
+test('the laboratory shows the way of the ray under a click', async () => {
+  const { page, context, complaints } = await open_page(kit.browser, kit.server.url, wide);
+  await open_own(page, csv, '4 spheres');
+  await and_settle(page, () => page.selectOption('#projection', 'orthographic'));
+  const at = await places(page, centres);
+  await page.mouse.click(...at[0]);
+  await pinned(page, 1);
+  assert.equal(await page.locator('#ray_path details').count(), 0, 'no path while the laboratory is closed');
+  await page.unfold('#ray_path');
+  await page.mouse.click(...at[1]);
+  await page.waitForFunction(() => document.querySelectorAll('#ray_path details').length === 2);
+  assert.ok(await page.by_hand.isVisible('#ray_path'), 'the click does not close the card');
+  for (const tree of ['wide', 'reference']) {
+    const path = page.locator('#ray_path details', { hasText: `${tree}: nodes` });
+    assert.match(await path.textContent(), /hits sphere 1 at [\d.]+/);
+    await path.locator('summary').click();
+    assert.match(await path.locator('li').last().textContent(), /1.*: nearest hit so far at/);
+  }
+  await page.screenshot({ path: join(scratch, 'ray_path.png') });
+  await page.click('#laboratory > summary');
+  await page.mouse.click(...at[2]);
+  await page.by_hand.waitForSelector('#ray_path', { state: 'hidden' });
+  no_complaints(complaints);
+  await context.close();
+});
+
 test('the pointer names a sphere, clicks measure', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, wide);
   await open_own(page, csv, '4 spheres');

@@ -10,6 +10,8 @@ import { words } from './words';
 export interface InspectActions {
   /** Asks for the sphere there, in pixels of the page; picked() gets the answer under the id that is returned. */
   pick(x: number, y: number): number;
+  /** A click or a tap there, or Enter for the middle. */
+  clicked(x: number, y: number): void;
   /** Asks for these spheres by their ids, and for the measure of them; described() gets the answer. */
   describe(spheres: number[]): void;
   camera(): Camera | null;
@@ -145,7 +147,7 @@ export class Inspector {
 
   // For those who have keys alone.
   private pin_middle(): void {
-    this.ask('pin', { x: this.picture.clientWidth / 2, y: this.picture.clientHeight / 2 });
+    this.click('pin', { x: this.picture.clientWidth / 2, y: this.picture.clientHeight / 2 });
   }
 
   /** The marks follow the camera. */
@@ -172,6 +174,11 @@ export class Inspector {
 
   private ask(why: 'name' | 'pin' | 'centre', place: Place): void {
     this.asked.set(this.actions.pick(place.x, place.y), { why, place });
+  }
+
+  private click(why: 'name' | 'pin', place: Place): void {
+    this.ask(why, place);
+    this.actions.clicked(place.x, place.y);
   }
 
   // A click pins, a finger's tap names, its long press pins; twice is to come closer.
@@ -205,7 +212,7 @@ export class Inspector {
       clearTimeout(pressing);
       if (!down || !event.isPrimary) return;
       // The second click of two takes the pin of the first one away.
-      if (!this.actions.dismiss()) this.ask(event.pointerType === 'touch' ? 'name' : 'pin', down);
+      if (!this.actions.dismiss()) this.click(event.pointerType === 'touch' ? 'name' : 'pin', down);
       down = null;
     });
     for (const end of ['pointercancel', 'pointerleave'] as const)

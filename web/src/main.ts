@@ -36,6 +36,7 @@ import {
 } from './sources';
 import { describe_device } from './device';
 import { save } from './download';
+import { RayPathTable } from './ray_path';
 import { show_statistics } from './statistics';
 import { load_style_pictures } from './style_tiles';
 import { is_dark, start_theme } from './theme';
@@ -220,6 +221,7 @@ const engine = new Engine(
     film_progress: ({ done }) => film.progress(done),
     film: ({ film: file }) => film.done(file, file_stem()),
     picked: ({ id, picked }) => inspector.picked(id, picked) || host.picked(id, picked),
+    ray_paths: ({ paths }) => ray_path.show(paths),
     described: ({ spheres, measure }) => inspector.described(spheres, measure),
     preview: ({ picture: file }) => preview.take(file),
     picture: ({ picture: file }) => host.picture(file) || saving.done(file, facts?.name ?? 'picture'),
@@ -325,7 +327,8 @@ const inspector = new Inspector({
     framed = false;
     change({ camera: { eye: [...eye], look_at: [...look_at] } });
   },
-  dismiss: () => cards.dismiss(),
+  dismiss: () => !ray_path.is_wanted() && cards.dismiss(),
+  clicked: (x, y) => ray_path.ask(x, y),
   pinned: (pins) => host.pinned(pins),
   select: (selection) => {
     cards.show('show');
@@ -337,6 +340,7 @@ const inspector = new Inspector({
     engine.send({ type: 'measure_frames', spheres, frames: facts?.frames ?? 1 });
   },
 });
+const ray_path = new RayPathTable((x, y) => engine.send({ type: 'ray_paths', x_px: x * scale, y_px: y * scale }));
 const union = new UnionMeasures((selection, probe) => engine.send({ type: 'measure_union', selection, probe }));
 const player = new PlayerBar((action) => engine.send({ type: 'play', action }));
 const thesis = new ThesisDialog({

@@ -41,6 +41,7 @@ export interface Page {
   step_picture(budget_ms: number): string;
   take_picture(): string;
   drop_picture(): void;
+  ray_paths(x_px: number, y_px: number): string;
   statistics(): string;
 }
 

@@ -203,6 +203,19 @@ export interface Picked {
   attributes: Record<string, number | string | null>;
 }
 
+/** The way of one ray through both trees, as `bihive compare --pixel --json` prints it. */
+export interface RayPaths {
+  structures: {
+    name: string;
+    t: number | null; // of the hit
+    id: number; // of the sphere, or -1
+    nodes: number;
+    box_tests: number;
+    sphere_tests: number;
+    steps: { spheres: number[]; t: number | null }[]; // t: of the nearest hit after this node
+  }[];
+}
+
 /** Of two to four spheres: a distance in the scene's unit, or an angle in degrees. */
 export interface Measure {
   value: number | null; // null: of fewer, or not defined
@@ -232,6 +245,7 @@ export type Request =
   | { type: 'move'; serial: number; move: Move }
   | { type: 'restore'; serial: number; settings: Settings; look: Look } // of the same scene
   | { type: 'pick'; id: number; x_px: number; y_px: number }
+  | { type: 'ray_paths'; x_px: number; y_px: number }
   | { type: 'describe'; spheres: number[] } // by their ids
   | { type: 'measure_frames'; spheres: number[]; frames: number }
   | { type: 'measure_union'; selection: string; probe: number } // of the shown frame
@@ -259,6 +273,7 @@ export type Answer =
   | { type: 'player'; player: PlayerState }
   | { type: 'statistics'; json: string }
   | { type: 'picked'; id: number; picked: Picked | null }
+  | { type: 'ray_paths'; paths: RayPaths | null } // null: an error was shown
   | { type: 'described'; spheres: (Picked | null)[]; measure: Measure }
   | { type: 'measured_frames'; lines: string[]; done: number; finished: boolean }
   | { type: 'measured_union'; numbers: UnionNumbers | null } // null: an error was shown

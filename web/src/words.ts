@@ -106,6 +106,16 @@ export const words = {
     `bihive ${version}, ${threads === 1 ? 'one thread' : `${threads} threads`}. ${requests ? "No request leaves this page's server" : 'This page makes no requests'}.`,
   lacking: (what: string, browsers: string) => `This browser has no ${what}, so the page cannot draw. ${browsers} and newer ones have it.`,
   row_waits: (value: string, example: string) => `It waits for ${value}: ${example}`,
+  ray_path: {
+    tree: (name: string) => (name === 'bih' ? 'reference' : name),
+    work: (nodes: string, box_tests: string, sphere_tests: string) => `nodes ${nodes} · boxes ${box_tests} · spheres ${sphere_tests}`,
+    hit: (sphere: number, t: string) => `hits sphere ${sphere} at ${t}`,
+    no_hit: 'hits nothing',
+    without_spheres: (nodes: string) => `nodes without spheres: ${nodes}`,
+    more: (count: string) => `and ${count} more`,
+    nearest: (t: string) => `nearest hit so far at ${t}`,
+    none_yet: 'no hit yet',
+  },
   undo: {
     undo: 'Undo', redo: 'Redo',
     undone: (what: string) => `Undone: ${what}`, redone: (what: string) => `Redone: ${what}`,

@@ -5,7 +5,7 @@ import { GlCanvas } from './gl_canvas';
 import { unpacked_lzma } from './lzma';
 import { PictureRun } from './picture_run';
 import type {
-  Answer, Changes, Choices, ColouredBy, Contents, Facts, FrameReport, Histogram, LegendKey, Look, Measure, Move, Picked, PlayAction, PlayerState, Request, Settings, ShownProgress, ThesisProgress, UnionNumbers,
+  Answer, Changes, Choices, ColouredBy, Contents, Facts, FrameReport, Histogram, LegendKey, Look, Measure, Move, Picked, PlayAction, PlayerState, RayPaths, Request, Settings, ShownProgress, ThesisProgress, UnionNumbers,
 } from './protocol';
 import { UserFiles } from './user_files';
 
@@ -348,6 +348,17 @@ async function pick({ id, x_px, y_px }: Request & { type: 'pick' }): Promise<voi
   send({ type: 'picked', id, ...value_of<{ picked: Picked | null }>(page.pick(x_px, y_px)) });
 }
 
+// Through the trees of what is shown.
+async function ray_paths({ x_px, y_px }: Request & { type: 'ray_paths' }): Promise<void> {
+  let paths: RayPaths | null = null;
+  try {
+    if (!saving) for (const apply of [apply_moves, apply_look, apply_changes]) await attempt(null, apply);
+    if (has_scene) paths = value_of<RayPaths>(page.ray_paths(x_px, y_px));
+  } finally {
+    send({ type: 'ray_paths', paths });
+  }
+}
+
 // Of the frame that is shown.
 function describe({ spheres }: Request & { type: 'describe' }): void {
   const of_one = (id: number) => value_of<{ picked: Picked | null }>(page.sphere(id)).picked;
@@ -591,6 +602,8 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return ask_for_frame();
     case 'pick':
       return attempt(request.id, () => pick(request));
+    case 'ray_paths':
+      return attempt(null, () => ray_paths(request));
     case 'describe':
       return attempt(null, () => describe(request));
     case 'measure_frames':

@@ -228,7 +228,7 @@ std::string ray_paths_text(const std::vector<workbench::StructurePath>& paths, c
     const auto number = [](std::int64_t count, const char* what) {
       return fmt::format("{} {}{}", grouped(count), what, count == 1 ? "" : "s");
     };
-    text += fmt::format("\n{}: {}; {}, {}, {}\n", path.row.name,
+    text += fmt::format("\n{}: {}; {}, {}, {}\n", path.name,
                         hit.found() ? fmt::format("sphere {} at t = {:.6g}", hit.sphere_id, hit.t) : "no hit",
                         number(path.work.nodes, "node"), number(path.work.box_tests, "box test"),
                         number(path.work.sphere_tests, "sphere test"));

@@ -167,7 +167,7 @@ std::string ray_paths_json(const std::vector<StructurePath>& paths, const std::s
   json["structures"] = ordered_json::array();
   for (const StructurePath& path : paths) {
     ordered_json one = {
-        {"name", path.row.name},    {"t", distance(path.hit())},        {"id", path.hit().sphere_id},
+        {"name", path.name},        {"t", distance(path.hit())},        {"id", path.hit().sphere_id},
         {"nodes", path.work.nodes}, {"box_tests", path.work.box_tests}, {"sphere_tests", path.work.sphere_tests}};
     one["steps"] = ordered_json::array();
     for (const PathStep& step : path.steps)

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/bih/tree.h"
 #include "bihive/compare/structure.h"
-#include "bihive/scene/scene.h"
+#include "bihive/wide/wide_tree.h"
 
 namespace bihive::workbench {
 
 /// The way of one ray through one structure.
 struct StructurePath {
-  StructureRow row;
+  const char* name;  ///< the structure's
   RayPath steps;
   Work work;
 
@@ -24,5 +25,9 @@ struct StructurePath {
 /// Errors: an unknown structure, or one that cannot be built.
 Result<std::vector<StructurePath>> paths_of_ray(const SphereSet& spheres, const std::vector<std::string>& names,
                                                 const Ray& ray, int threads);
+
+/// The same through trees that exist: those of "wide" and "bih", built from these spheres.
+StructurePath path_of_ray(const SphereSet& spheres, const WideTree& tree, const Ray& ray);
+StructurePath path_of_ray(const SphereSet& spheres, const Tree& tree, const Ray& ray);
 
 }  // namespace bihive::workbench

@@ -8,6 +8,7 @@
 #include "bihive/bih/statistics.h"
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
+#include "bihive/compare/ray_path.h"
 #include "bihive/compare/sphere_limit.h"
 
 namespace bihive::workbench {
@@ -27,7 +28,8 @@ struct Observer {
 class ReferenceBih final : public ByRay<ReferenceBih> {
  public:
   ReferenceBih(const SphereSet& spheres, const BuildParameters& parameters)
-      : ByRay(spheres), tree_(build_reference_tree(spheres, parameters)) {}
+      : ByRay(spheres), own_(build_reference_tree(spheres, parameters)), tree_(own_) {}
+  ReferenceBih(const SphereSet& spheres, const Tree& tree) : ByRay(spheres), tree_(tree) {}
 
   StructureFacts facts() const override {
     const TreeStatistics statistics = tree_statistics(tree_);
@@ -116,10 +118,16 @@ class ReferenceBih final : public ByRay<ReferenceBih> {
   }
 
  private:
-  Tree tree_;
+  Tree own_;
+  const Tree& tree_;
 };
 
 }  // namespace
+
+StructurePath path_of_ray(const SphereSet& spheres, const Tree& tree, const Ray& ray) {
+  const ReferenceBih bih(spheres, tree);
+  return {"bih", bih.path_of_ray(ray, /*any_hit=*/false), bih.work_of_ray(ray, false)};
+}
 
 Result<StructurePointer> build_bih(const SphereSet& spheres, const StructureParameters& parameters, int) {
   BuildParameters chosen;

@@ -5,6 +5,7 @@
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
 #include "bihive/compare/nearest_first.h"
+#include "bihive/compare/ray_path.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/wide_builder.h"
 #include "bihive/wide/wide_statistics.h"
@@ -122,6 +123,11 @@ class WideBih final : public Structure {
 };
 
 }  // namespace
+
+StructurePath path_of_ray(const SphereSet& spheres, const WideTree& tree, const Ray& ray) {
+  const WideWork work(spheres, tree);
+  return {"wide", work.path_of_ray(ray, /*any_hit=*/false), work.work_of_ray(ray, false)};
+}
 
 Result<StructurePointer> build_wide(const SphereSet& spheres, const StructureParameters& parameters, int threads) {
   WideBuilder builder;

@@ -45,6 +45,15 @@ const Tracer* SceneTrees::any() const {
   return reference_ ? &*reference_ : nullptr;
 }
 
+Result<std::vector<workbench::StructurePath>> SceneTrees::paths_of(const Ray& ray) {
+  const Result<const BuiltWideTree*> wide = built();
+  if (!wide) return wide.error();
+  const Result<const Tracer*> tracer = reference();
+  if (!tracer) return tracer.error();
+  return std::vector{workbench::path_of_ray(scene_.spheres, *(*wide)->tree, ray),
+                     workbench::path_of_ray(scene_.spheres, *(*tracer)->tree(), ray)};
+}
+
 Result<std::string> SceneTrees::statistics(std::optional<std::uint64_t> seed) {
   if (Result<const BuiltWideTree*> tree = built(); !tree) return tree.error();
   const Result<const Tracer*> tracer = reference();

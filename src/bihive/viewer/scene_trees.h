@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bihive/base/result.h"
+#include "bihive/compare/ray_path.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/scene.h"
 #include "bihive/viewer/statistics_json.h"
@@ -27,6 +29,9 @@ class SceneTrees {
   }
   /// Any tracer that exists already, for single rays; null if there is none.
   const Tracer* any() const;
+
+  /// The way of a ray through the trees of whole spheres, the wide one first. Errors as above.
+  Result<std::vector<workbench::StructurePath>> paths_of(const Ray& ray);
 
   /// Errors as above.
   Result<std::string> statistics(std::optional<std::uint64_t> seed);

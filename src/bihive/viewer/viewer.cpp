@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bihive/base/check.h"
+#include "bihive/compare/comparison_json.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/clips.h"
@@ -361,6 +362,24 @@ class Viewer::Implementation {
     return std::optional(Picked{sphere, spheres.in_world(local), length(local - camera.eye)});
   }
 
+  Result<std::string> ray_paths_json(double x_px, double y_px) {
+    if (!shown_) return bad_setting("there is no scene yet");
+    const Scene& scene = shown_->scene;
+    if (has_clips(scene) || scene.spheres.has_images() || scene.cavity_walls != nullptr)
+      return bad_setting("paths are those of rays among whole spheres",
+                         "leave out clips, copies along the cell, and cavities");
+    const Camera camera = relative_to(settings_.camera, scene.spheres.origin());
+    Result<std::vector<workbench::StructurePath>> paths =
+        shown_->trees->paths_of(PixelRays(camera, size_.width, size_.height).at(x_px, y_px));
+    if (!paths) return paths.error();
+    for (workbench::StructurePath& path : *paths)
+      for (workbench::PathStep& step : path.steps) {
+        for (std::int64_t& id : step.sphere_ids) id = input_id(scene, id);
+        if (step.best.found()) step.best.sphere_id = input_id(scene, step.best.sphere_id);
+      }
+    return workbench::ray_paths_json(*paths, scene.name);
+  }
+
   std::string statistics_json() {
     if (!shown_) return statistics_error(bad_setting("there is no scene yet"));
     const Result<std::string> json = shown_->trees->statistics(shown_->scene.seed);
@@ -638,6 +657,9 @@ Result<PngPixels> Viewer::picture(int width_px, int height_px, int samples_per_p
 }
 Result<std::optional<Picked>> Viewer::pick(double x_px, double y_px) const {
   return implementation_->pick(x_px, y_px);
+}
+Result<std::string> Viewer::ray_paths_json(double x_px, double y_px) const {
+  return implementation_->ray_paths_json(x_px, y_px);
 }
 std::string Viewer::statistics_json() const {
   return implementation_->statistics_json();

@@ -149,6 +149,11 @@ class Viewer {
   /// there, or in the view of the tree. Error: as set().
   Result<std::optional<Picked>> pick(double x_px, double y_px) const;
 
+  /// The way of the ray through (x, y) of the picture at rest through both trees, as `bihive compare --pixel --json`
+  /// prints it, with the ids of the input. The trees are those of whole spheres. Errors: a scene with copies, clips or
+  /// cavities, whose rays take other ways; no scene; memory too small for a tree.
+  Result<std::string> ray_paths_json(double x_px, double y_px) const;
+
   /// Both trees' statistics for the current parameters as in `bihive stats --json`, with the bytes and the build time.
   /// Builds the trees that are not built yet. {"error": "..."} without a scene, or if memory is too small for a tree.
   std::string statistics_json() const;

@@ -176,6 +176,9 @@ const catalogue: Catalogue = {
     'reference': 'Referenz',
     'wide': 'breit',
     'The GPU traverses the reference tree, the CPU the wide one.': 'Die GPU durchläuft den Referenzbaum, die CPU den breiten.',
+    'Ray': 'Strahl',
+    'A click on the picture shows the way of its ray: the nodes that it enters, and the spheres that it is tested against.':
+      'Ein Klick auf das Bild zeigt den Weg des Strahls: die Knoten, in die er eintritt, und die Kugeln, mit denen er verglichen wird.',
     'Thesis': 'Diplomarbeit',
     'In 2014 an iPhone 5s drew up to 60 frames per second with this kind of tree. And this device?': '2014 zeichnete ein iPhone 5s mit solchen Bäumen bis zu 60 Bilder pro Sekunde. Und dieses Gerät?',
     'Run the thesis on this device': 'Die Arbeit auf diesem Gerät messen',
@@ -275,6 +278,16 @@ const catalogue: Catalogue = {
       `bihive ${version}, ${threads === 1 ? 'ein Thread' : `${threads} Threads`}. ${requests ? 'Keine Anfrage verlässt den Server dieser Seite' : 'Diese Seite stellt keine Anfragen'}.`,
     lacking: (what, browsers) => `Diesem Browser fehlt ${what}, daher kann die Seite nicht zeichnen. ${browsers} und neuere haben es.`,
     row_waits: (value, example) => `Es fehlt noch ein Wert (${value}): ${example}`,
+    ray_path: {
+      tree: (name: string) => (name === 'bih' ? 'Referenz' : name),
+      work: (nodes: string, box_tests: string, sphere_tests: string) => `Knoten ${nodes} · Boxen ${box_tests} · Kugeln ${sphere_tests}`,
+      hit: (sphere: number, t: string) => `trifft Kugel ${sphere} bei ${t}`,
+      no_hit: 'trifft nichts',
+      without_spheres: (nodes: string) => `Knoten ohne Kugeln: ${nodes}`,
+      more: (count: string) => `und ${count} weitere`,
+      nearest: (t: string) => `nächster Treffer bisher bei ${t}`,
+      none_yet: 'noch kein Treffer',
+    },
     undo: {
       undo: 'Rückgängig:', redo: 'Wiederholen:', undone: (what) => `Rückgängig gemacht: ${what}`, redone: (what) => `Wiederholt: ${what}`,
       nothing_to_undo: 'Nichts rückgängig zu machen', nothing_to_redo: 'Nichts zu wiederholen', more: ' und mehr',

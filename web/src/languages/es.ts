@@ -176,6 +176,9 @@ const catalogue: Catalogue = {
     'reference': 'referencia',
     'wide': 'ancho',
     'The GPU traverses the reference tree, the CPU the wide one.': 'La GPU recorre el árbol de referencia; la CPU, el ancho.',
+    'Ray': 'Rayo',
+    'A click on the picture shows the way of its ray: the nodes that it enters, and the spheres that it is tested against.':
+      'Un clic en la imagen muestra el camino de su rayo: los nodos en los que entra y las esferas con las que se compara.',
     'Thesis': 'Tesis',
     'In 2014 an iPhone 5s drew up to 60 frames per second with this kind of tree. And this device?': 'En 2014 un iPhone 5s dibujaba hasta 60 fotogramas por segundo con este tipo de árbol. ¿Y este dispositivo?',
     'Run the thesis on this device': 'Ejecutar la tesis en este dispositivo',
@@ -275,6 +278,16 @@ const catalogue: Catalogue = {
       `bihive ${version}, ${threads === 1 ? 'un hilo' : `${threads} hilos`}. ${requests ? 'Ninguna petición sale del servidor de esta página' : 'Esta página no hace peticiones'}.`,
     lacking: (what, browsers) => `A este navegador le falta ${what}, así que la página no puede dibujar. ${browsers} y posteriores lo tienen.`,
     row_waits: (value, example) => `Falta un valor (${value}): ${example}`,
+    ray_path: {
+      tree: (name: string) => (name === 'bih' ? 'de referencia' : name),
+      work: (nodes: string, box_tests: string, sphere_tests: string) => `nodos ${nodes} · cajas ${box_tests} · esferas ${sphere_tests}`,
+      hit: (sphere: number, t: string) => `alcanza la esfera ${sphere} en ${t}`,
+      no_hit: 'no alcanza nada',
+      without_spheres: (nodes: string) => `nodos sin esferas: ${nodes}`,
+      more: (count: string) => `y ${count} más`,
+      nearest: (t: string) => `impacto más cercano hasta ahora en ${t}`,
+      none_yet: 'ningún impacto todavía',
+    },
     undo: {
       undo: 'Deshacer', redo: 'Rehacer', undone: (what) => `Deshecho: ${what}`, redone: (what) => `Rehecho: ${what}`,
       nothing_to_undo: 'Nada que deshacer', nothing_to_redo: 'Nada que rehacer', more: ' y más',

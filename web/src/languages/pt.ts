@@ -176,6 +176,9 @@ const catalogue: Catalogue = {
     'reference': 'referência',
     'wide': 'larga',
     'The GPU traverses the reference tree, the CPU the wide one.': 'A GPU percorre a árvore de referência; a CPU, a larga.',
+    'Ray': 'Raio',
+    'A click on the picture shows the way of its ray: the nodes that it enters, and the spheres that it is tested against.':
+      'Um clique na imagem mostra o caminho do seu raio: os nós em que entra e as esferas com que é comparado.',
     'Thesis': 'Tese',
     'In 2014 an iPhone 5s drew up to 60 frames per second with this kind of tree. And this device?': 'Em 2014 um iPhone 5s desenhava até 60 quadros por segundo com este tipo de árvore. E este dispositivo?',
     'Run the thesis on this device': 'Executar a tese neste dispositivo',
@@ -275,6 +278,16 @@ const catalogue: Catalogue = {
       `bihive ${version}, ${threads === 1 ? 'uma thread' : `${threads} threads`}. ${requests ? 'Nenhuma requisição sai do servidor desta página' : 'Esta página não faz requisições'}.`,
     lacking: (what, browsers) => `Falta ${what} a este navegador, por isso a página não pode desenhar. ${browsers} e mais novos têm.`,
     row_waits: (value, example) => `Falta um valor (${value}): ${example}`,
+    ray_path: {
+      tree: (name: string) => (name === 'bih' ? 'de referência' : name),
+      work: (nodes: string, box_tests: string, sphere_tests: string) => `nós ${nodes} · caixas ${box_tests} · esferas ${sphere_tests}`,
+      hit: (sphere: number, t: string) => `atinge a esfera ${sphere} em ${t}`,
+      no_hit: 'não atinge nada',
+      without_spheres: (nodes: string) => `nós sem esferas: ${nodes}`,
+      more: (count: string) => `e mais ${count}`,
+      nearest: (t: string) => `impacto mais próximo até agora em ${t}`,
+      none_yet: 'nenhum impacto ainda',
+    },
     undo: {
       undo: 'Desfazer', redo: 'Refazer', undone: (what) => `Desfeito: ${what}`, redone: (what) => `Refeito: ${what}`,
       nothing_to_undo: 'Nada a desfazer', nothing_to_redo: 'Nada a refazer', more: ' e mais',

@@ -176,6 +176,9 @@ const catalogue: Catalogue = {
     'reference': '参考',
     'wide': '宽树',
     'The GPU traverses the reference tree, the CPU the wide one.': 'GPU 遍历参考树，CPU 遍历宽树。',
+    'Ray': '光线',
+    'A click on the picture shows the way of its ray: the nodes that it enters, and the spheres that it is tested against.':
+      '在图像上单击，即可显示该光线的路径：它进入的节点，以及与之比较的球体。',
     'Thesis': '论文',
     'In 2014 an iPhone 5s drew up to 60 frames per second with this kind of tree. And this device?': '2014 年，iPhone 5s 用这种树每秒可绘制多达 60 帧。这台设备呢？',
     'Run the thesis on this device': '在此设备上运行论文',
@@ -263,6 +266,16 @@ const catalogue: Catalogue = {
     about: (version, threads, requests) => `bihive ${version}，${threads} 个线程。${requests ? '没有请求离开此页面的服务器' : '此页面不发出请求'}。`,
     lacking: (what, browsers) => `此浏览器没有 ${what}，因此页面无法绘制。${browsers} 及更新版本具备。`,
     row_waits: (value, example) => `还缺少一个值 (${value})：${example}`,
+    ray_path: {
+      tree: (name: string) => (name === 'bih' ? '参考' : name),
+      work: (nodes: string, box_tests: string, sphere_tests: string) => `节点 ${nodes} · 包围盒 ${box_tests} · 球体 ${sphere_tests}`,
+      hit: (sphere: number, t: string) => `在 ${t} 处击中球体 ${sphere}`,
+      no_hit: '没有击中任何物体',
+      without_spheres: (nodes: string) => `不含球体的节点：${nodes}`,
+      more: (count: string) => `另有 ${count} 个`,
+      nearest: (t: string) => `目前最近的击中点在 ${t}`,
+      none_yet: '尚未击中',
+    },
     undo: {
       undo: '撤销', redo: '重做', undone: (what) => `已撤销：${what}`, redone: (what) => `已重做：${what}`,
       nothing_to_undo: '没有可撤销的操作', nothing_to_redo: '没有可重做的操作', more: ' 等',
