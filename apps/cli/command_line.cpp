@@ -319,6 +319,9 @@ void add_trace(CLI::App& app, TraceOptions& options, Request& request) {
   command.add_flag("--plane", options.plane, "Trace the plane too: the scene's own, else the thesis's");
   add_choice(command, "--engine", options.engine, kEngines, "The engine (auto); all give the same bits");
   add_tree_options(command, options.tree);
+  command.add_flag("--tune", options.tune,
+                   "Search the tree's limits that suit these spheres, in about ten seconds, as bihive tune\n--rays "
+                   "random does; answers keep their bits");
   add_threads(command, options.threads);
   add_input_options(command, options.input);
 }

@@ -6,6 +6,7 @@ import json
 import os
 
 import jsonschema
+import numpy
 from program import ProgramTest, main, png_pixels, png_size
 
 SOURCE = os.environ.get("BIHIVE_SOURCE", os.path.join(os.path.dirname(__file__), "../.."))
@@ -258,6 +259,17 @@ class Compare(ProgramTest):
         # One sphere has one tree.
         self.write("one.xyz", "1\n\nC 1 2 3\n")
         self.assertIn("nothing to gain", self.succeed("tune", "one.xyz", "--rays-count", "64"))
+
+    def test_rays_with_a_tuned_tree(self):
+        numpy.save(self.path("rays.npy"), numpy.array([[30, 20, 0, -1, -0.5, 0.1], [0, 0, 90, 0, 0, -1]], dtype=numpy.float32))
+        rays = ["trace", "demo", "--rays", "rays.npy", "--t"]
+        self.succeed(*rays, "own_t.npy", "--id", "own_id.npy")
+        said = self.run_bihive(*rays, "t.npy", "--id", "id.npy", "--tune").stderr
+        self.assertRegex(said, r"bihive: (no other tree is faster than the engine's own choice|--max-.*: [\d.]+ times as fast)")
+        self.assertEqual(self.read("own_t.npy"), self.read("t.npy"))
+        self.assertEqual(self.read("own_id.npy"), self.read("id.npy"))
+        self.assertIn("searches --max-prims and --max-depth", self.fail_usage(*rays, "t.npy", "--id", "id.npy", "--tune", "--max-prims", "4"))
+        self.assertIn("needs a tree", self.fail_usage(*rays, "t.npy", "--id", "id.npy", "--tune", "--engine", "brute"))
 
     def test_pictures_with_a_tuned_tree(self):
         picture = ["demo", "--size", "48x32", "--samples", "1", "-o"]

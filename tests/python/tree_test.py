@@ -30,6 +30,25 @@ def rays(count):
     return RNG.normal(size=(count, 3)).astype(np.float32) * 3, RNG.normal(size=(count, 3)).astype(np.float32)
 
 
+class Tuned(unittest.TestCase):
+    def test_answers_keep_their_bits(self):
+        spheres = bh.Spheres(RNG.normal(size=(300, 3)), radius=0.1)
+        origins, directions = rays(200)
+        own, tuned = bh.Tree(spheres), bh.Tree(spheres, tune=True, threads=1)
+        for a, b in zip(own.closest(origins, directions), tuned.closest(origins, directions), strict=True):
+            np.testing.assert_array_equal(a, b)
+        mask = np.arange(300) % 2 == 0
+        np.testing.assert_array_equal(own.occluded(origins, directions, mask=mask), tuned.occluded(origins, directions, mask=mask))
+
+    def test_nothing_to_search(self):
+        spheres = bh.Spheres([[0.0, 0, 0]], radius=1)
+        with self.assertRaisesRegex(bh.UsageError, "tune searches max_prims"):
+            bh.Tree(spheres, tune=True, max_prims=4)
+        with self.assertRaisesRegex(bh.UsageError, "tune needs a tree"):
+            bh.Tree(spheres, tune=True, engine="brute")
+        bh.Tree(bh.Spheres(np.zeros((0, 3)), radius=1), tune=True)
+
+
 class Counting(unittest.TestCase):
     """Rays that do not see all spheres."""
 

@@ -171,6 +171,7 @@ struct TraceOptions {
   bool plane = false;
   Engine engine = Engine::automatic;
   TreeParameters tree;
+  bool tune = false;
   std::int64_t threads = 0;
 };
 void run_trace(const TraceOptions& options);

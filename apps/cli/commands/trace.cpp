@@ -16,6 +16,7 @@
 #include "bihive/io/npy.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
+#include "bihive/job/tuned_tree.h"
 #include "bihive/render/memory.h"
 #include "bihive/scene/generators.h"
 #include "bihive/simd/target.h"
@@ -181,6 +182,16 @@ Answers trace(const RayFile& rays, const Tracer& tracer, const PeriodicImages* i
   return answers;
 }
 
+// What --tune finds, which it says.
+TreeParameters tuned(const SphereSet& spheres, const TraceOptions& options) {
+  check_tuning(options.tree, name_of(kEngines, options.engine), !is_brute(options.engine));
+  Progress progress("tuning");
+  const TunedTree found = tuned_tree_for_rays(spheres, options.engine, static_cast<int>(options.threads),
+                                              [&](double done) { progress.update(done); });
+  say_lines("bihive: " + found.text() + "\n");
+  return found.tree;
+}
+
 }  // namespace
 
 void run_trace(const TraceOptions& options) {
@@ -193,9 +204,10 @@ void run_trace(const TraceOptions& options) {
   const RayFile rays(options.rays);
   const Input input = load_input(options.input);
   check_outputs(outputs, input.files);
-  value_or_fail(check_tree_memory(input.scene.spheres, options.engine, options.tree));
+  const TreeParameters limits = options.tune ? tuned(input.scene.spheres, options) : options.tree;
+  value_or_fail(check_tree_memory(input.scene.spheres, options.engine, limits));
   const Tracer tracer =
-      value_or_fail(Tracer::build(input.scene, options.engine, options.tree, static_cast<int>(options.threads)));
+      value_or_fail(Tracer::build(input.scene, options.engine, limits, static_cast<int>(options.threads)));
   Plane plane = input.scene.plane ? input.scene.plane->plane : thesis_plane().plane;
   plane.point = input.scene.spheres.to_local(plane.point);
 

@@ -46,6 +46,7 @@ class Tree:
         returned as the position of its sphere, which may thus occur several times, and the distance to the image. Rays meet
         the spheres alone, as in pictures, unless the query has periodic=True. False: no images.
     engine: "auto" (wide), "wide", "reference", "brute" or "wide-brute". max_prims, max_depth: limits of the tree.
+    tune: searches those that suit these spheres and rays anywhere, in about ten seconds, as `bihive tune --rays random` does.
     threads: of building and queries; 0: as many as the machine runs at once.
     progress: of building, as of render(). Ctrl-C ends it.
 
@@ -76,6 +77,7 @@ class Tree:
         engine: str = "auto",
         max_prims: Union[int, str, None] = None,
         max_depth: Union[int, str, None] = None,
+        tune: bool = False,
         threads: int = 0,
         progress: Progress = None,
     ) -> None:
@@ -85,7 +87,7 @@ class Tree:
         images = boolean("periodic", periodic)
         if select is not None:
             self._ids = np.flatnonzero(chosen("select", select, self._spheres._core, images))
-        self._options = words_of({"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads})
+        self._options = words_of({"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "tune": tune, "threads": threads})
         self._sees_images = images
         self._masked: Optional[tuple[bytes, Tree]] = None
         self._core = self._built(self._spheres, progress)
@@ -105,6 +107,7 @@ class Tree:
             tree = object.__new__(Tree)
             tree.__dict__.update(self.__dict__)
             tree._ids, tree._masked = np.flatnonzero(counting), None
+            tree._options = [word for word in self._options if word != "--tune"]  # this query should not wait for a search
             tree._core = tree._built(self._spheres, False)
             self._masked = kept = key, tree
         return kept[1]

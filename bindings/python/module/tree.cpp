@@ -20,6 +20,7 @@
 #include "arrays.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/watch.h"
+#include "bihive/job/tuned_tree.h"
 #include "bihive/render/memory.h"
 #include "bihive/wide/surface_of_hit.h"
 #include "errors.h"
@@ -397,6 +398,7 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
   const PictureRequest options = request_of(words);
   if (is_gpu(options.engine)) fail_setting("engine", ": a graphics processor answers no rays", "leave it out");
   const Engine engine = structure_of(options.engine);
+  if (options.tune) check_tuning(options.tree, name_of(kRenderEngines, options.engine), !is_brute(engine));
   auto tree = std::make_shared<RayTree>();
   tree->threads = static_cast<int>(options.threads);
   const auto build = [&](Work& work) {
@@ -407,12 +409,17 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
       tree->spheres = std::move(some);
     }
     const SphereSet& set = tree->spheres->file.spheres;
-    value_of(check_tree_memory(set, engine, options.tree));
+    TreeParameters limits = options.tree;
+    const auto end_if_cancelled = [&](double) {
+      if (work.cancel.cancelled()) throw Cancelled{};
+    };
+    if (options.tune) limits = tuned_tree_for_rays(set, engine, tree->threads, end_if_cancelled).tree;
+    value_of(check_tree_memory(set, engine, limits));
     const Watch watch(work.between(0, 1), &work.cancel);
-    tree->tracer = value_of(Tracer::build(set, engine, options.tree, tree->threads));
+    tree->tracer = value_of(Tracer::build(set, engine, limits, tree->threads));
     if (periodic && !set.has_images()) tree->images = value_of(PeriodicImages::of(set, tree->threads));
   };
-  if (spheres->file.spheres.size() > kFewSpheres) {
+  if (spheres->file.spheres.size() > kFewSpheres || options.tune) {
     wait_for(build, progress);
     return tree;
   }

@@ -22,6 +22,7 @@
 #include "bihive/job/messages.h"
 #include "bihive/job/picture_record.h"
 #include "bihive/job/title_values.h"
+#include "bihive/job/tuned_tree.h"
 #include "bihive/render/draw_labels.h"
 #include "bihive/render/frame_picture.h"
 #include "bihive/render/memory.h"
@@ -215,20 +216,6 @@ std::string why_empty(const Scene& scene, const RenderSettings& settings) {
   return "no sphere is in the picture: the camera looks past them; without a camera of your own all are in view";
 }
 
-// Searching a tree needs one, and another one must not change the picture.
-void check_tune(const PictureRequest& request, RenderEngine engine) {
-  if (request.tree.max_prims || request.tree.max_depth)
-    fail_setting("tune", " searches " + setting_name("max_prims") + " and " + setting_name("max_depth"),
-                 "leave " + setting_name("tune") + " or these out");
-  if (shows_reference_tree(request.view))
-    fail_setting("tune", " would change what " + setting_name("view") + " " + name_of(kViews, request.view) + " shows");
-  if (is_gpu(engine) || is_brute(structure_of(engine)))
-    fail_setting("tune",
-                 " needs a tree on the processor, and " + setting_name("engine") + " " +
-                     name_of(kRenderEngines, engine) + " has none",
-                 "leave " + setting_name("engine") + " out");
-}
-
 }  // namespace
 
 // The pictures of the tree show the reference tree, also if another engine is faster.
@@ -251,7 +238,10 @@ RenderEngine choose_engine(const PictureRequest& request) {
 
 RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engine, Input& input, const WholeSet* whole,
                                const FrameSource* frames) {
-  if (request.tune) check_tune(request, engine);
+  if (request.tune)
+    check_tuning(request.tree, name_of(kRenderEngines, engine), !is_gpu(engine) && !is_brute(structure_of(engine)));
+  if (request.tune && shows_reference_tree(request.view))
+    fail_setting("tune", " would change what " + setting_name("view") + " " + name_of(kViews, request.view) + " shows");
   PictureSettings& picture = input.scene.picture;
   if (const SettingValue* const transfer = request.picture.find("transfer"))
     parameter_named("transfer")->set(picture, *transfer);

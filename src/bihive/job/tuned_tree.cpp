@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bihive/base/setting_name.h"
@@ -22,23 +23,50 @@ std::string TunedTree::text() const {
   return fmt::format("{}: {:.3g} times as fast as the engine's own choice", chosen, gain);
 }
 
-TunedTree tuned_tree(const Scene& scene, RenderEngine engine, const RenderSettings& settings,
-                     const ProgressCallback& progress) {
+namespace {
+
+TunedTree tuned(const Scene& scene, Engine engine, std::vector<workbench::QueryKind> kinds, int threads,
+                const ProgressCallback& progress) {
   if (scene.spheres.empty()) return {};
   workbench::TuneOptions options;
-  options.structure = structure_of(engine) == Engine::reference ? "bih" : "wide";
-  options.kinds = {workbench::QueryKind::primary};
-  if (settings.shadows) options.kinds.push_back(workbench::QueryKind::shadow);
-  if (settings.ambient_occlusion) options.kinds.push_back(workbench::QueryKind::ao);
-  options.threads = settings.threads;
+  options.structure = engine == Engine::reference ? "bih" : "wide";
+  options.kinds = std::move(kinds);
+  options.threads = threads;
   options.progress = progress;
   const workbench::Tuning tuning = value_or_fail(workbench::tune_structure(scene, options));
-  TunedTree tuned;
-  tuned.gain = tuning.gain();
+  TunedTree found;
+  found.gain = tuning.gain();
   const workbench::StructureParameters& best = tuning.best.parameters;
-  if (best.max_prims > 0) tuned.tree.max_prims = best.max_prims;
-  if (best.max_depth > 0) tuned.tree.max_depth = best.max_depth;
-  return tuned;
+  if (best.max_prims > 0) found.tree.max_prims = best.max_prims;
+  if (best.max_depth > 0) found.tree.max_depth = best.max_depth;
+  return found;
+}
+
+}  // namespace
+
+void check_tuning(const TreeParameters& given, const std::string& engine, bool has_tree) {
+  if (given.max_prims || given.max_depth)
+    fail_setting("tune", " searches " + setting_name("max_prims") + " and " + setting_name("max_depth"),
+                 "leave " + setting_name("tune") + " or these out");
+  if (!has_tree)
+    fail_setting("tune", " needs a tree on the processor, and " + setting_name("engine") + " " + engine + " has none",
+                 "leave " + setting_name("engine") + " out");
+}
+
+TunedTree tuned_tree(const Scene& scene, RenderEngine engine, const RenderSettings& settings,
+                     const ProgressCallback& progress) {
+  std::vector<workbench::QueryKind> kinds{workbench::QueryKind::primary};
+  if (settings.shadows) kinds.push_back(workbench::QueryKind::shadow);
+  if (settings.ambient_occlusion) kinds.push_back(workbench::QueryKind::ao);
+  return tuned(scene, structure_of(engine), std::move(kinds), settings.threads, progress);
+}
+
+TunedTree tuned_tree_for_rays(const SphereSet& spheres, Engine engine, int threads,
+                              const ProgressCallback& progress) {
+  Scene scene;
+  scene.spheres = spheres;
+  workbench::complete_for_queries(scene, /*has_camera=*/false, /*has_lights=*/false);
+  return tuned(scene, engine, {workbench::QueryKind::random}, threads, progress);
 }
 
 TreeParameters tree_for(const PictureRequest& request, RenderEngine engine, const Scene& scene,

@@ -20,11 +20,18 @@ struct TunedTree {
   std::string text() const;
 };
 
+/// Fails where nothing can be searched: the limits are given, or the engine of this name has no tree on the processor.
+void check_tuning(const TreeParameters& given, const std::string& engine, bool has_tree);
+
 /// Searches by tune_structure() (compare/tune.h), with rays from the scene's camera and, as the settings have them,
 /// shadow rays and ambient occlusion: some builds of the tree and up to ten seconds. The engine has a tree on the
 /// processor; without spheres nothing is searched. `progress` is called on the caller's thread.
 TunedTree tuned_tree(const Scene& scene, RenderEngine engine, const RenderSettings& settings,
                      const ProgressCallback& progress = {});
+
+/// The same for rays from anywhere in any direction, without a picture.
+TunedTree tuned_tree_for_rays(const SphereSet& spheres, Engine engine, int threads,
+                              const ProgressCallback& progress = {});
 
 /// request.tree, or with `tune` what tuned_tree() finds, of a request that prepare_picture() has taken. Pictures keep
 /// their bits.
