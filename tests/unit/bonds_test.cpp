@@ -1,4 +1,4 @@
-#include "bihive/scene/bonds.h"
+#include "bihive/io/bonds.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 #include "bihive/geometry/cell.h"
 #include "bihive/io/elements.h"
 #include "bihive/math/rng.h"
+#include "bihive/scene/bonds.h"
 
 namespace bihive {
 namespace {

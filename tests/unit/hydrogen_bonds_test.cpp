@@ -14,7 +14,7 @@
 
 #include "bihive/io/read_spheres.h"
 #include "bihive/math/rng.h"
-#include "bihive/scene/bonds.h"
+#include "bihive/io/bonds.h"
 #include "bihive/scene/pair_line.h"
 
 namespace bihive {

@@ -227,6 +227,43 @@ TEST(Selection, ASelectionThatFindsNothingSaysWhatThereIs) {
   EXPECT_EQ(what_there_is(frame, "phase gas"), phases);
 }
 
+ReadOptions at_radius_one() {
+  ReadOptions options;
+  options.radius = 1;
+  return options;
+}
+
+// Five carbon atoms in a row, which bonds by distance join, one far away, and a point without an element.
+TEST(Selection, BondsJoinSpheres) {
+  const std::string chain = "C 0 0 0\nC 1.5 0 0\nC 3 0 0\nC 4.5 0 0\nC 6 0 0\nC 20 0 0\nX 7 0 0\n";
+  const SphereSet spheres = test::read_text("7\n\n" + chain, "chain.xyz", at_radius_one()).spheres;
+  EXPECT_EQ(ids_in(spheres, "bonded to index 2"), (Ids{1, 3}));
+  EXPECT_EQ(ids_in(spheres, "bonded to index 2 3"), (Ids{1, 2, 3, 4}));
+  EXPECT_EQ(ids_in(spheres, "bonded to index 5 6"), Ids{});
+  EXPECT_EQ(ids_in(spheres, "within 0 bonds of index 2 5"), (Ids{2, 5}));
+  EXPECT_EQ(ids_in(spheres, "within 1 bond of index 2"), (Ids{1, 2, 3}));
+  EXPECT_EQ(ids_in(spheres, "WITHIN 2 BONDS OF index 0"), (Ids{0, 1, 2}));
+  EXPECT_EQ(ids_in(spheres, "within 1e300 bonds of index 4"), (Ids{0, 1, 2, 3, 4}));
+  EXPECT_EQ(ids_in(spheres, "not bonded to bonded to index 0 and x < 10"), (Ids{1, 3, 4, 6}));
+  EXPECT_EQ(ids_in(spheres, "within 3 of index 6 and not within 1 bonds of index 4"), Ids({6}));
+}
+
+TEST(Selection, BondsOfAFileCountAndBondsCrossACell) {
+  const std::string in_cell = "2\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3\nC 0.5 5 5\nC 9.2 5 5\n";
+  const SphereSet spheres = test::read_text(in_cell, "cell.xyz", at_radius_one()).spheres;
+  EXPECT_EQ(ids_in(spheres, "bonded to index 0"), (Ids{1}));
+  EXPECT_TRUE(sees_images(spheres, "bonded to index 0"));
+  EXPECT_TRUE(sees_images(spheres, "within 2 bonds of index 0"));
+  SphereSet stated = atoms_table();
+  stated.attributes().bonds.add(0, 4);
+  stated.attributes().bonds.put_in_order();
+  stated.attributes().bonds.are_all = true;
+  EXPECT_EQ(ids_in(stated, "bonded to index 4"), (Ids{0}));
+  const SphereSet points = test::read_text("0 0 0 1\n1 0 0 1\n", "points.csv").spheres;
+  EXPECT_THAT(error_in(points, "x > 0 and bonded to index 0").to_string(), testing::HasSubstr("have none"));
+  EXPECT_EQ(error_in(points, "x > 0 and bonded to index 0").column, 11);
+}
+
 TEST(Selection, AndBindsTighterThanOrAndNotTighterThanBoth) {
   EXPECT_EQ(ids("x = 0 or x = 1 and r = 2"), (Ids{0}));
   EXPECT_EQ(ids("(x = 0 or x = 1) and r = 1"), (Ids{0, 1}));
@@ -352,6 +389,10 @@ TEST(Selection, ErrorsNameThePlaceAndTheRemedy) {
       {"x > 3)", "6", "found ')'"},
       {"within of all", "8", "expected a distance"},
       {"within 5 all", "10", "expected 'of'"},
+      {"within 5 bonds all", "16", "expected 'of'"},
+      {"within 1.5 bonds of all", "1", "must be a whole number"},
+      {"within -1 bonds of all", "1", "must be a whole number"},
+      {"bonded all", "1", "'bonded' is a word of another program; write 'bonded to"},
       {"within -1 of all", "1", "at least 0"},
       {"index 5..2", "7", "the range '5..2' is empty"},
       {"element 8..6", "9", "the range '8..6' is empty"},
@@ -408,7 +449,7 @@ TEST(Selection, DeepAndLongTextsAreErrors) {
   for (int i = 0; i < 98; ++i) within = "within 0 of " + within;
   EXPECT_EQ(ids(within), ids("x > 1"));
   EXPECT_THAT(error_in(atoms_table(), "within 0 of " + within).message,
-              testing::HasSubstr("at most 100 times 'within', 'same' or 'byres'"));
+              testing::HasSubstr("at most 100 times 'within', 'bonded', 'same' or 'byres'"));
   std::string many = "x > 1";
   for (int i = 0; i < 3000; ++i) many += " or x > 1";
   EXPECT_EQ(ids(many), (Ids{2, 3, 4, 5}));

@@ -10,7 +10,7 @@
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/selection.h"
-#include "bihive/scene/bonds.h"
+#include "bihive/io/bonds.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/looks.h"

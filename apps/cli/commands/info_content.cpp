@@ -7,7 +7,7 @@
 
 #include "bihive/io/column_choice.h"
 #include "bihive/io/residue_runs.h"
-#include "bihive/scene/bonds.h"
+#include "bihive/io/bonds.h"
 #include "bihive/select/selection.h"
 
 namespace bihive::cli {

@@ -34,7 +34,7 @@
 #include "bihive/job/scene_request.h"
 #include "bihive/job/selection.h"
 #include "bihive/render/memory.h"
-#include "bihive/scene/bonds.h"
+#include "bihive/io/bonds.h"
 #include "bihive/scene/colour_by.h"
 #include "bihive/scene/load_scene.h"
 #include "bihive/scene/look_text.h"

@@ -39,6 +39,9 @@ struct ImagePair {
 
   bool is_image() const { return image != std::array<std::int64_t, 3>{}; }
   friend bool operator==(const ImagePair& a, const ImagePair& b) { return a.pair == b.pair && a.image == b.image; }
+  friend bool operator<(const ImagePair& a, const ImagePair& b) {
+    return a.pair != b.pair ? a.pair < b.pair : a.image < b.image;
+  }
 };
 
 /// A stick with ends of its own: local positions and radii (SphereSet), one of which may be 0.

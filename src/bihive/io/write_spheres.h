@@ -28,7 +28,7 @@ struct WrittenSpheres {
 /// float32, or float64 if the set's range needs it. Looks (outlines, creases, clips) are left out. Texts are changed
 /// where a format has no place for blanks or empty ones; `left_out` says so. docs/formats.md#writing lists the columns.
 /// `title`: as SphereFile::title; extended XYZ, SDF and
-/// MOL2 have a place for it. Bonds are those that the set states (scene/bonds.h has more: state_bonds()).
+/// MOL2 have a place for it. Bonds are those that the set states (io/bonds.h has more: state_bonds()).
 WrittenSpheres write_spheres(const SphereSet& spheres, SphereFileFormat format, std::string_view title = {});
 
 /// A text as a field of a CSV file: in quotes where its characters need them, whichever separator a reader expects.

@@ -23,7 +23,7 @@ constexpr ParallelSticks kDoubleBond{0.5, 1.6}, kTripleBond{0.42, 1.3}, kAromati
 constexpr double kRadiusOfDashes = 0.36;  ///< of the dashed stick of an aromatic bond
 
 /// The sticks of those bonds whose order has parallel ones. `radius`: of a single bond (world units). `bonds` are in
-/// the order of scene/bonds.h, `orders` has one for each.
+/// the order of io/bonds.h, `orders` has one for each.
 ///
 /// Two sticks of a double bond lie on either side of the axis between its atoms, three of a triple bond also on it, in
 /// the plane of the axis and of the first atom that lies off it by more than 10 degrees: neighbours of the first atom

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/parse_number.h"
+#include "bihive/io/bonds.h"
 #include "bihive/io/elements.h"
 #include "bihive/io/text/text_scanner.h"
 #include "bihive/select/attribute_names.h"
@@ -65,6 +67,29 @@ bool any_holds(const std::vector<NumberRange>& ranges, double number) {
   return next != ranges.begin() && number >= std::prev(next)->first && number <= std::prev(next)->second;
 }
 
+// The other ends of each sphere's bonds.
+class BondedSpheres {
+ public:
+  BondedSpheres(const std::vector<ImagePair>& bonds, std::size_t spheres) : begin_(spheres + 1), other_(2 * bonds.size()) {
+    for (const ImagePair& bond : bonds)
+      for (const std::int32_t end : bond.pair) ++begin_[static_cast<std::size_t>(end) + 1];
+    for (std::size_t i = 0; i < spheres; ++i) begin_[i + 1] += begin_[i];
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const ImagePair& bond : bonds)
+      for (const int k : {0, 1})
+        other_[next[static_cast<std::size_t>(bond.pair[static_cast<std::size_t>(k)])]++] =
+            bond.pair[static_cast<std::size_t>(1 - k)];
+  }
+
+  std::span<const std::int32_t> of(std::size_t sphere) const {
+    return std::span(other_).subspan(begin_[sphere], begin_[sphere + 1] - begin_[sphere]);
+  }
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<std::int32_t> other_;
+};
+
 class Evaluation {
  public:
   Evaluation(std::string_view text, const SphereSet& spheres) : text_(text), spheres_(spheres) {}
@@ -79,6 +104,10 @@ class Evaluation {
         return comparison(expression);
       case Expression::Kind::within:
         return within(expression);
+      case Expression::Kind::within_bonds:
+        return within_bonds(expression);
+      case Expression::Kind::bonded:
+        return bonded(expression);
       case Expression::Kind::same:
         return same(expression);
       case Expression::Kind::negation:
@@ -311,6 +340,49 @@ class Evaluation {
     return mask;
   }
 
+  // The spheres that each sphere is bonded to, by the bonds that sticks would be drawn for; found once.
+  Result<const BondedSpheres*> bonds(TextPlace place) const {
+    if (!bonds_) {
+      const Result<std::vector<ImagePair>> found = automatic_bonds(spheres_, kUsualBondReach);
+      if (!found) return error(place, found.error().message, found.error().hint);
+      bonds_.emplace(*found, size());
+    }
+    return &*bonds_;
+  }
+
+  Result<SphereMask> bonded(const Expression& expression) const {
+    const Result<const BondedSpheres*> bonds_of = bonds(expression.place);
+    if (!bonds_of) return bonds_of.error();
+    const Result<SphereMask> inner = mask_of(expression.operands.front());
+    if (!inner) return inner;
+    SphereMask mask(size());
+    for (std::size_t i = 0; i < size(); ++i)
+      if ((*inner)[i] != 0)
+        for (const std::int32_t other : (*bonds_of)->of(i)) mask[static_cast<std::size_t>(other)] = 1;
+    return mask;
+  }
+
+  // Bond by bond outward, from each sphere once.
+  Result<SphereMask> within_bonds(const Expression& expression) const {
+    if (!(expression.distance >= 0) || expression.distance != std::floor(expression.distance))
+      return error(expression.place, "the number of bonds of 'within' must be a whole number, at least 0");
+    const Result<const BondedSpheres*> bonds_of = bonds(expression.place);
+    if (!bonds_of) return bonds_of.error();
+    Result<SphereMask> mask = mask_of(expression.operands.front());
+    if (!mask) return mask;
+    std::vector<std::int32_t> last, next;
+    for (std::size_t i = 0; i < size(); ++i)
+      if ((*mask)[i] != 0) last.push_back(static_cast<std::int32_t>(i));
+    for (double step = 0; step < expression.distance && !last.empty(); ++step) {
+      next.clear();
+      for (const std::int32_t sphere : last)
+        for (const std::int32_t other : (*bonds_of)->of(static_cast<std::size_t>(sphere)))
+          if (std::exchange((*mask)[static_cast<std::size_t>(other)], std::uint8_t{1}) == 0) next.push_back(other);
+      last.swap(next);
+    }
+    return mask;
+  }
+
   Result<SphereMask> same(const Expression& expression) const {
     const Result<SphereMask> inner = mask_of(expression.operands.front());
     if (!inner) return inner;
@@ -363,6 +435,7 @@ class Evaluation {
 
   std::string_view text_;
   const SphereSet& spheres_;
+  mutable std::optional<BondedSpheres> bonds_;
 };
 
 }  // namespace

@@ -39,6 +39,8 @@ struct Expression {
     values,       ///< `name` with `values`
     comparison,   ///< `terms` with a sign between each two
     within,       ///< at most `distance` from a sphere of the operand
+    within_bonds, ///< at most `distance` bonds from a sphere of the operand
+    bonded,       ///< to a sphere of the operand
     same,         ///< those whose `name` (an attribute, or "residue") some sphere of the operand has too
     negation,     ///< of the operand
     conjunction,  ///< all operands

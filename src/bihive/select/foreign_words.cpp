@@ -7,6 +7,10 @@ struct ForeignWord {
   std::string_view word, advice;
 };
 constexpr std::string_view kNear = "write 'within 5 of resname LIG', and 'and not resname LIG' to leave it out";
+constexpr std::string_view kBonded = "write 'bonded to resname LIG'";
+constexpr std::string_view kNeighbour = "write 'bonded to resname LIG and not resname LIG'";
+constexpr std::string_view kMolecule =
+    "write 'same mol as', if there is a column mol, or 'within 1e9 bonds of' for what bonds join";
 constexpr std::string_view kPlace = "compare coordinates: 'x^2 + y^2 < 25', 'z > 3'";
 constexpr ForeignWord kForeignWords[] = {
     {"around", kNear},
@@ -16,12 +20,13 @@ constexpr ForeignWord kForeignWords[] = {
     {"beyond", "write 'not within 5 of resname LIG'"},
     {"expand", "write 'within 5 of resname LIG'"},
     {"gap", "write 'not within 5 of resname LIG'"},
-    {"extend", "there are no bonds; write 'within 2 of resname LIG'"},
-    {"bonded", "there are no bonds; write 'within 2 of resname LIG'"},
-    {"neighbor", "write 'within 2 of resname LIG'"},
-    {"nbr", "write 'within 2 of resname LIG'"},
-    {"bymolecule", "write 'same mol as', if there is a column mol"},
-    {"bymol", "write 'same mol as', if there is a column mol"},
+    {"extend", "write 'within 2 bonds of resname LIG'"},
+    {"bonded", kBonded},
+    {"bound_to", kBonded},
+    {"neighbor", kNeighbour},
+    {"nbr", kNeighbour},
+    {"bymolecule", kMolecule},
+    {"bymol", kMolecule},
     {"bychain", "write 'same chain as'"},
     {"bysegi", "write 'same chain as'"},
     {"byobject", "there is one object; write 'all'"},
@@ -35,7 +40,7 @@ constexpr ForeignWord kForeignWords[] = {
     {"cylayer", kPlace},
     {"cyzone", kPlace},
     {"box", kPlace},
-    {"fragment", "write 'same mol as', if there is a column mol"},
+    {"fragment", kMolecule},
     {"pfrag", "write 'same chain as'"},
     {"polymer_type", "write protein or nucleic"},
     {"organic", "write ligand"},

@@ -35,6 +35,9 @@ struct word_or : istring<'o', 'r'> {};
 struct word_not : istring<'n', 'o', 't'> {};
 struct word_of : istring<'o', 'f'> {};
 struct word_within : istring<'w', 'i', 't', 'h', 'i', 'n'> {};
+struct word_bonds : seq<istring<'b', 'o', 'n', 'd'>, opt<istring<'s'>>> {};
+struct word_bonded : istring<'b', 'o', 'n', 'd', 'e', 'd'> {};
+struct word_to : istring<'t', 'o'> {};
 struct word_same : istring<'s', 'a', 'm', 'e'> {};
 struct word_as : istring<'a', 's'> {};
 struct word_byres : istring<'b', 'y', 'r', 'e', 's'> {};
@@ -100,10 +103,13 @@ struct disjunction;
 struct distance : seq<signed_digits> {};
 struct distance_token : seq<distance, not_at<name_next>, gap> {};
 struct within_prefix : seq<within_word, distance_token, of_word> {};
+struct bonds_prefix : seq<within_word, distance_token, keyword<word_bonds>, of_word> {};
+struct bonded_prefix : seq<keyword<word_bonded>, keyword<word_to>> {};
 struct byres_prefix : seq<keyword<word_byres>> {};
 struct same_prefix : seq<keyword<word_same>, name, keyword<word_as>> {};
 struct inner : seq<open, disjunction, close> {};
-struct operand : seq<star<sor<not_sign, within_prefix, same_prefix, byres_prefix>>, sor<comparison, inner, test>> {};
+struct prefix : sor<not_sign, bonds_prefix, within_prefix, bonded_prefix, same_prefix, byres_prefix> {};
+struct operand : seq<star<prefix>, sor<comparison, inner, test>> {};
 struct conjunction : seq<operand, star<and_sign, operand>> {};
 struct disjunction : seq<conjunction, star<or_sign, conjunction>> {};
 struct end_of_text : eof {};
@@ -113,8 +119,8 @@ struct whole_sum : seq<gap, sum, end_of_text> {};
 template <class Rule>
 using selector =
     parse_tree::selector<Rule, parse_tree::store_content::on<
-                                   not_sign, within_prefix, same_prefix, byres_prefix, distance, function_name,
-                                   function, exponent_factor, power, quoted, plain_name, number, minus_sign, times_sign,
+                                   not_sign, bonds_prefix, within_prefix, bonded_prefix, same_prefix, byres_prefix,
+                                   distance, function_name, function, exponent_factor, power, quoted, plain_name, number, minus_sign, times_sign,
                                    plus_sign, factor, product, sum, comparison_sign, comparison, range_value,
                                    number_value, signed_digits, plain_value, test, operand, conjunction, disjunction>>;
 }  // namespace grammar
@@ -394,9 +400,12 @@ Expression operand_of(const ParseNode& node) {
     Expression outer;
     outer.place = place_of(prefix);
     outer.kind = Expression::Kind::negation;
-    if (prefix.is_type<grammar::within_prefix>()) {
-      outer.kind = Expression::Kind::within;
+    if (prefix.is_type<grammar::within_prefix>() || prefix.is_type<grammar::bonds_prefix>()) {
+      outer.kind =
+          prefix.is_type<grammar::within_prefix>() ? Expression::Kind::within : Expression::Kind::within_bonds;
       outer.distance = number_of(*prefix.children.front());
+    } else if (prefix.is_type<grammar::bonded_prefix>()) {
+      outer.kind = Expression::Kind::bonded;
     } else if (!is_not(i)) {
       outer.kind = Expression::Kind::same;
       outer.name = prefix.is_type<grammar::same_prefix>() ? text_of(*prefix.children.front()) : "residue";
@@ -419,9 +428,10 @@ Expression expression_of(const ParseNode& node) {
   return made;
 }
 
-// The place of the 'within', 'same' or 'byres' beyond the most that a selection may have; text.size() if there is none.
+// The place of the 'within', 'bonded', 'same' or 'byres' beyond the most that a selection may have; text.size() if there is none.
 TextPlace too_many_prefixes(const ParseNode& node, int& left, std::size_t none) {
-  const bool counts = node.is_type<grammar::within_prefix>() || node.is_type<grammar::same_prefix>() ||
+  const bool counts = node.is_type<grammar::within_prefix>() || node.is_type<grammar::bonds_prefix>() ||
+                      node.is_type<grammar::bonded_prefix>() || node.is_type<grammar::same_prefix>() ||
                       node.is_type<grammar::byres_prefix>();
   if (counts && --left < 0) return place_of(node);
   for (const auto& child : node.children)
@@ -483,7 +493,7 @@ Result<Expression> parse_expression(std::string_view text) {
     if (const TextPlace place = too_many_prefixes(whole, prefixes_left, text.size()); place != text.size())
       return selection_error(
           text, place,
-          "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within', 'same' or 'byres'");
+          "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within', 'bonded', 'same' or 'byres'");
     return expression_of(whole);
   });
 }

@@ -83,7 +83,8 @@ std::string first_empty_test(const SphereSet& spheres, const Expression& express
 }
 
 bool has_distance(const Expression& expression) {
-  return expression.kind == Expression::Kind::within ||
+  using Kind = Expression::Kind;
+  return expression.kind == Kind::within || expression.kind == Kind::within_bonds || expression.kind == Kind::bonded ||
          std::any_of(expression.operands.begin(), expression.operands.end(), has_distance);
 }
 

@@ -4,7 +4,7 @@
 namespace bihive {
 
 /// distance: two atoms are bonded that are at most Sticks::reach times the sum of their covalent radii apart
-/// (scene/bonds.h). file: those that the file states. automatic: those that the file states, and those by distance
+/// (io/bonds.h). file: those that the file states. automatic: those that the file states, and those by distance
 /// unless it states all.
 enum class Bonds { none, distance, file, automatic };
 

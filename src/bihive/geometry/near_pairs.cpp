@@ -1,4 +1,4 @@
-#include "bihive/scene/near_pairs.h"
+#include "bihive/geometry/near_pairs.h"
 
 #include <algorithm>
 #include <cmath>
