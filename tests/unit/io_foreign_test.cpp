@@ -13,7 +13,6 @@ TEST(Foreign, NamesTheFormatByItsContent) {
   const std::pair<std::string, const char*> cases[] = {
       {"{\"1\": {\n \"ctime\": 1, \"numbers\": [1]}}", "a database of ASE in JSON"},
       {"<!DOCTYPE html>\n<html>", "a web page (HTML)"},
-      {"PSF CMAP\n\n 1 !NTITLE\n", "a topology of CHARMM or NAMD (PSF), without coordinates"},
       {"%VERSION  VERSION_STAMP = V0001.000\n", "a topology of Amber (PRMTOP), without coordinates"},
       {"title\n    2\n  1.0  2.0  3.0  4.0  5.0  6.0\n", "a file of coordinates of Amber"},
       {"* TITLE\n*\n    2  EXT\n", "a structure of CHARMM (CRD)"},

@@ -227,7 +227,7 @@ TEST(Selection, ASelectionThatFindsNothingSaysWhatThereIs) {
   EXPECT_EQ(what_there_is(frame, "phase gas"), phases);
 }
 
-ReadOptions at_radius_one() {
+ReadOptions with_radius_one() {
   ReadOptions options;
   options.radius = 1;
   return options;
@@ -236,7 +236,7 @@ ReadOptions at_radius_one() {
 // Five carbon atoms in a row, which bonds by distance join, one far away, and a point without an element.
 TEST(Selection, BondsJoinSpheres) {
   const std::string chain = "C 0 0 0\nC 1.5 0 0\nC 3 0 0\nC 4.5 0 0\nC 6 0 0\nC 20 0 0\nX 7 0 0\n";
-  const SphereSet spheres = test::read_text("7\n\n" + chain, "chain.xyz", at_radius_one()).spheres;
+  const SphereSet spheres = test::read_text("7\n\n" + chain, "chain.xyz", with_radius_one()).spheres;
   EXPECT_EQ(ids_in(spheres, "bonded to index 2"), (Ids{1, 3}));
   EXPECT_EQ(ids_in(spheres, "bonded to index 2 3"), (Ids{1, 2, 3, 4}));
   EXPECT_EQ(ids_in(spheres, "bonded to index 5 6"), Ids{});
@@ -250,7 +250,7 @@ TEST(Selection, BondsJoinSpheres) {
 
 TEST(Selection, BondsOfAFileCountAndBondsCrossACell) {
   const std::string in_cell = "2\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3\nC 0.5 5 5\nC 9.2 5 5\n";
-  const SphereSet spheres = test::read_text(in_cell, "cell.xyz", at_radius_one()).spheres;
+  const SphereSet spheres = test::read_text(in_cell, "cell.xyz", with_radius_one()).spheres;
   EXPECT_EQ(ids_in(spheres, "bonded to index 0"), (Ids{1}));
   EXPECT_TRUE(sees_images(spheres, "bonded to index 0"));
   EXPECT_TRUE(sees_images(spheres, "within 2 bonds of index 0"));

@@ -1,5 +1,6 @@
 #include "bihive/io/elements.h"
 
+#include <cmath>
 #include <gemmi/elem.hpp>
 
 namespace bihive {
@@ -19,6 +20,13 @@ int atomic_number(std::string_view symbol) {
 std::string element_symbol(int atomic_number) {
   if (atomic_number < 1 || atomic_number > 118) return "";
   return gemmi::Element(atomic_number).name();
+}
+
+int element_of_mass(double mass) {
+  constexpr double kTolerance = 0.05;
+  for (int number = 1; number <= 118; ++number)
+    if (std::abs(gemmi::Element(number).weight() - mass) <= kTolerance) return number;
+  return 0;
 }
 
 double van_der_waals_radius(int atomic_number) {

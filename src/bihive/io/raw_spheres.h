@@ -28,6 +28,7 @@ struct RawSpheres {
   std::string format;           ///< as in SphereFile
   std::string title, entry_id;  ///< as in SphereFile, by title_from() of io/text/title.h
   std::vector<double> x, y, z, r;
+  bool has_positions = true;  ///< false: x, y and z are 0, and a trajectory gives them
   SphereAttributes attributes;
   bool assumed_radii = false;            ///< as SphereFile::assumed_radii
   std::optional<double> unknown_radius;  ///< for spheres with neither radius nor known element; >= 0

@@ -30,7 +30,6 @@ constexpr ForeignFormat kKnown[] = {
     {"json", "JSON, but no scene of bihive", "", "scene files have the key \"bihive_scene\": docs/scene_format.md"},
     {"vtk", "a VTK file without points of its own", ".vti .vtr .pvtp .pvtu .vtm .pvd", kPoints},
     {"stl", "a mesh (STL)", ".stl", kPoints, "solid "},
-    {"psf", "a topology of CHARMM or NAMD (PSF), without coordinates", ".psf", kMdanalysis, "PSF |PSF\n"},
     {"prmtop", "a topology of Amber (PRMTOP), without coordinates", ".prmtop .parm7",
      "convert it with 'cpptraj' or 'ambpdb'", "%VERSION"},
     {"inpcrd", "a file of coordinates of Amber", ".inpcrd .rst7 .restrt",

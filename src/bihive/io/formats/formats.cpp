@@ -16,7 +16,7 @@ namespace bihive {
 
 // Each row is defined at the end of its reader's file.
 extern const Format kNpy, kNpz, kHdf5, kNetcdf, kGsd, kPly, kPcd, kVtk, kVtkXml, kLammpsDump, kSdf, kPoscar, kXdatcar,
-    kMol2, kLammpsData, kPqr, kPdb, kGro, kXyz, kCsv, kCrystalCif, kMmcif;
+    kMol2, kLammpsData, kPsf, kPqr, kPdb, kGro, kXyz, kCsv, kCrystalCif, kMmcif;
 extern const TrajectoryFormat kH5mdTrajectory, kAmberTrajectory, kDcd, kXtc, kTrr;
 
 namespace {
@@ -25,7 +25,7 @@ constexpr const Format* kFormats[] = {
     // Their first bytes are their own. After a header of text there may be any bytes.
     &kNpy, &kNpz, &kHdf5, &kNetcdf, &kGsd, &kPly, &kVtk, &kPcd, &kVtkXml,
     // Text that no other format has. Titles of these may be anything, also a record of PDB.
-    &kLammpsDump, &kSdf, &kPoscar, &kXdatcar, &kMol2, &kLammpsData,
+    &kLammpsDump, &kSdf, &kPoscar, &kXdatcar, &kMol2, &kLammpsData, &kPsf,
     // Text that is told by its first lines, the special before the general.
     &kPqr, &kPdb, &kGro, &kXyz, &kCsv, &kCrystalCif, &kMmcif};
 constexpr const TrajectoryFormat* kTrajectories[] = {&kH5mdTrajectory, &kAmberTrajectory, &kDcd, &kXtc, &kTrr};

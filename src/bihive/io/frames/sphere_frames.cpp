@@ -59,14 +59,22 @@ Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t
   frames_ = std::move(opened->frames);
   RawSpheres raw = std::move(opened->wanted);
   if (is_moved()) {
-    // A radius that is a guess is the file's own, so that it is the same in each frame.
     atoms_ = std::move(raw);
-    if (!options_.radius && lacks_radii(atoms_))
-      atoms_.unknown_radius = radius_from_neighbours(atoms_, cell_by_options(atoms_.cell, options_));
     Result<std::shared_ptr<const Trajectory>> trajectory = open_trajectory(options_.trajectory);
     if (!trajectory) return trajectory.error();
     trajectory_ = std::move(*trajectory);
+    // A radius that is a guess is the file's own, so that it is the same in each frame; without coordinates in the file,
+    // that of the first frame.
+    if (!options_.radius && lacks_radii(atoms_)) {
+      RawSpheres placed = atoms_;
+      if (!atoms_.has_positions)
+        if (Status status = take_places(0, placed); !status) return status.error();
+      atoms_.unknown_radius = radius_from_neighbours(placed, cell_by_options(placed.cell, options_));
+    }
     raw = atoms_;
+  } else if (!raw.has_positions) {
+    return Error{"this is a topology (" + raw.format + "), which has no coordinates", name_, 0, 0,
+                 "give its trajectory too, as in 'bihive render ATOMS.psf FILE.dcd'"};
   }
   if (frame < 0) {
     // A number beyond the first frame stays, for the message.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <gemmi/elem.hpp>
 #include <limits>
 #include <map>
 #include <optional>
@@ -50,9 +49,6 @@ constexpr std::string_view kSections[] = {"Atoms",
                                           "BondBond13 Coeffs",
                                           "AngleAngle Coeffs"};
 
-// A mass counts as an element's if it is that close.
-constexpr double kMassTolerance = 0.05;
-
 bool is_section(std::string_view line) {
   const std::string_view name = trim(line);
   for (const std::string_view section : kSections)
@@ -64,12 +60,6 @@ bool is_section(std::string_view line) {
 bool may_be_section(std::string_view line) {
   const std::string_view name = trim(line);
   return !name.empty() && name[0] >= 'A' && name[0] <= 'Z';
-}
-
-int element_of_mass(double mass) {
-  for (int number = 1; number <= 118; ++number)
-    if (std::abs(gemmi::Element(number).weight() - mass) <= kMassTolerance) return number;
-  return 0;
 }
 
 class LammpsDataReader {
