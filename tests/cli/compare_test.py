@@ -83,6 +83,7 @@ class Compare(ProgramTest):
                 self.assertGreaterEqual(steps["sphere_tests"]["99_percent"], 1)
                 self.assertAlmostEqual(steps["cost"], steps["nodes"]["mean"] + steps["sphere_tests"]["mean"])
             if one["name"] != "brute":
+                self.assertEqual(len(one["levels"]), 0 if one["name"] == "grid" else one["depth"])
                 self.assertGreaterEqual(one["references"], result["spheres"] if one["name"] != "wide" else 1)
                 self.assertLess(one["kinds"]["random"]["cost"], result["spheres"] / 4)
         brute = result["structures"][-1]

@@ -185,6 +185,31 @@ TEST(Structures, CountTheirSteps) {
       EXPECT_GE(facts.nodes, facts.leaves);
       EXPECT_GE(facts.depth, 1);
     }
+    // Levels add up; half-spaces of a k-d tree fill their node and do not overlap.
+    EXPECT_EQ(facts.levels.empty(), brute || std::string(row.name) == "grid");
+    if (!facts.levels.empty()) {
+      EXPECT_EQ(std::ssize(facts.levels), facts.depth);
+      EXPECT_EQ(facts.levels[0].nodes, 1);
+      EXPECT_NEAR(facts.levels[0].expected_nodes, 1, 1e-12);
+    }
+    std::int64_t nodes = 0, leaves = 0;
+    for (const workbench::LevelFacts& level : facts.levels) {
+      nodes += level.nodes;
+      leaves += level.leaves;
+      if (level.nodes == level.leaves) {
+        EXPECT_TRUE(std::isnan(level.children));
+        continue;
+      }
+      EXPECT_GT(level.children, 0);
+      EXPECT_GE(level.overlap, 0);
+      if (std::string(row.name) != "kd-sah") continue;
+      EXPECT_GE(level.children, 1);
+      EXPECT_EQ(level.overlap, 0);
+    }
+    if (!facts.levels.empty()) {
+      EXPECT_EQ(nodes, facts.nodes);
+      EXPECT_EQ(leaves, facts.leaves);
+    }
     test::QueryRays rays(world, 11, [&](const Ray& ray) { return closest_hit(set, ray); });
     for (int i = 0; i < 200; ++i) {
       const Ray ray = rays.next();

@@ -56,6 +56,25 @@ must::data rows_of(const Comparison& comparison, std::size_t k) {
   return rows;
 }
 
+// A row for each level of a tree.
+must::data levels_of(const StructureResult& one) {
+  must::data levels{must::data::type::list};
+  std::int64_t number = 0;
+  for (const workbench::LevelFacts& level : one.facts.levels) {
+    must::data row;
+    const std::int64_t inner = level.nodes - level.leaves;
+    row.set("level", std::to_string(++number));
+    row.set("nodes", grouped(level.nodes));
+    row.set("leaves", grouped(level.leaves));
+    row.set("per_leaf", level.leaves == 0 ? "" : short_number(double(level.references) / double(level.leaves)));
+    row.set("expected", std::isnan(level.expected_nodes) ? "" : short_number(level.expected_nodes));
+    row.set("children", inner == 0 || std::isnan(level.children) ? "" : short_number(level.children));
+    row.set("overlap", inner == 0 || std::isnan(level.overlap) ? "" : short_number(level.overlap));
+    levels << row;
+  }
+  return levels;
+}
+
 // Puts the pictures of costs and their scale into the page.
 void add_cost_pictures(const Comparison& comparison, must::data& view) {
   const CostPictures made = cost_pictures(comparison);
@@ -187,6 +206,8 @@ std::string comparison_html(const Comparison& comparison, const std::string& nam
     row.set("depth", std::to_string(one.facts.depth));
     row.set("nodes", grouped(one.facts.nodes));
     row.set("references", short_number(static_cast<double>(one.facts.references) / spheres));
+    row.set("has_levels", !one.facts.levels.empty());
+    row.set("levels", levels_of(one));
     structures << row;
   }
   view.set("structures", structures);

@@ -70,6 +70,15 @@ ordered_json json_of(const StructureResult& result) {
   json["expected"] = {{"nodes", result.facts.expected_nodes},
                       {"sphere_tests", result.facts.expected_spheres},
                       {"cost", result.facts.expected_cost()}};
+  json["levels"] = ordered_json::array();
+  for (const LevelFacts& level : result.facts.levels)
+    json["levels"].push_back({{"nodes", level.nodes},
+                              {"leaves", level.leaves},
+                              {"references", level.references},
+                              {"expected_nodes", level.expected_nodes},
+                              {"expected_sphere_tests", level.expected_spheres},
+                              {"children", level.children},
+                              {"overlap", level.overlap}});
   json["fit"] = json_of(result.fit);
   json["same_bits"] = result.same_bits();
   json["mray_per_s"] = ordered_json::object();

@@ -11,6 +11,7 @@
 
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
+#include "bihive/compare/level_sums.h"
 #include "bihive/compare/nearest_first.h"
 #include "bihive/compare/sphere_limit.h"
 
@@ -60,28 +61,25 @@ class KdSah final : public ByRay<KdSah> {
                                             ids_.capacity() * sizeof(std::uint32_t));
     facts.nodes = static_cast<std::int64_t>(nodes_.size());
     if (nodes_.empty()) return facts;
-    facts.references = static_cast<std::int64_t>(ids_.size());
     struct Part {
       std::uint32_t node;
       Aabb cell;
       std::int64_t level;
     };
-    double nodes = 0, spheres = 0;  // weighted by surfaces
+    LevelSums sums(box_);
     std::vector<Part> pending{{0, box_, 1}};
     while (!pending.empty()) {
       const Part at = pending.back();
       pending.pop_back();
       const KdNode& node = nodes_[at.node];
-      nodes += half_surface(at.cell);
-      spheres += half_surface(at.cell) * node.count;
-      facts.leaves += node.is_leaf() ? 1 : 0;
-      facts.depth = std::max(facts.depth, at.level);
+      sums.add(at.level, at.cell, node.is_leaf(), node.count);
       if (node.is_leaf()) continue;
-      pending.push_back({node.first, part_below(at.cell, node.axis, node.plane), at.level + 1});
-      pending.push_back({node.first + 1, part_above(at.cell, node.axis, node.plane), at.level + 1});
+      const std::array cells{part_below(at.cell, node.axis, node.plane), part_above(at.cell, node.axis, node.plane)};
+      sums.add_children(at.level, at.cell, cells);
+      pending.push_back({node.first, cells[0], at.level + 1});
+      pending.push_back({node.first + 1, cells[1], at.level + 1});
     }
-    if (const double whole = half_surface(box_); whole > 0)
-      facts.expected_nodes = nodes / whole, facts.expected_spheres = spheres / whole;
+    sums.put(facts);
     return facts;
   }
 

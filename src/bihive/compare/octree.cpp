@@ -10,6 +10,7 @@
 
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
+#include "bihive/compare/level_sums.h"
 #include "bihive/compare/nearest_first.h"
 #include "bihive/compare/sphere_limit.h"
 
@@ -67,19 +68,21 @@ class Octree final : public ByRay<Octree> {
                                             ids_.capacity() * sizeof(std::uint32_t));
     facts.nodes = static_cast<std::int64_t>(nodes_.size());
     if (nodes_.empty()) return facts;
-    facts.references = static_cast<std::int64_t>(ids_.size());
-    double nodes = 0, spheres = 0;
+    LevelSums sums(nodes_[0].box);
     std::vector<std::int64_t> level(nodes_.size(), 1);
+    std::vector<Aabb> boxes;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const OctreeNode& node = nodes_[i];
-      nodes += half_surface(node.box);
-      spheres += half_surface(node.box) * node.spheres;
-      facts.leaves += node.is_leaf() ? 1 : 0;
-      facts.depth = std::max(facts.depth, level[i]);
-      for (std::uint32_t child = 0; child < node.children; ++child) level[node.first + child] = level[i] + 1;
+      sums.add(level[i], node.box, node.is_leaf(), node.spheres);
+      if (node.is_leaf()) continue;
+      boxes.clear();
+      for (std::uint32_t child = node.first; child < node.first + node.children; ++child) {
+        level[child] = level[i] + 1;
+        boxes.push_back(nodes_[child].box);
+      }
+      sums.add_children(level[i], node.box, boxes);
     }
-    const double whole = half_surface(nodes_[0].box);
-    if (whole > 0) facts.expected_nodes = nodes / whole, facts.expected_spheres = spheres / whole;
+    sums.put(facts);
     return facts;
   }
 

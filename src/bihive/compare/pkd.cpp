@@ -11,6 +11,7 @@
 
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
+#include "bihive/compare/level_sums.h"
 #include "bihive/compare/sphere_limit.h"
 
 namespace bihive::workbench {
@@ -45,30 +46,32 @@ class Pkd final : public ByRay<Pkd> {
   StructureFacts facts() const override {
     StructureFacts facts;
     facts.bytes = static_cast<std::int64_t>(sizeof(Pkd) + ids_.capacity() * (2 * sizeof(std::uint32_t) + 1));
-    facts.nodes = facts.references = spheres().size();
-    for (std::size_t k = ids_.size(); k > 0; k /= 2) ++facts.depth;
-    for (std::size_t k = 0; k < ids_.size(); ++k) facts.leaves += is_leaf(k) ? 1 : 0;
-    const double whole = half_surface(box_);
-    if (!(whole > 0)) return facts;
-    facts.expected_nodes = 0;
-    std::vector<std::pair<std::size_t, Aabb>> pending{{0, box_}};
+    facts.nodes = spheres().size();
+    struct Part {
+      std::size_t sphere;
+      Aabb box;
+      std::int64_t level;
+    };
+    LevelSums sums(box_);
+    std::vector<Part> pending;
+    if (!ids_.empty()) pending.push_back({0, box_, 1});
     while (!pending.empty()) {
-      const auto [k, box] = pending.back();
+      const auto [k, box, level] = pending.back();
       pending.pop_back();
-      facts.expected_nodes += half_surface(box) / whole;
+      sums.add(level, box, is_leaf(k), 1);
+      if (is_leaf(k)) continue;
       const int axis = axes_[k];
       const std::size_t left = 2 * k + 1, right = left + 1;
-      Aabb of_left = box, of_right = box;
-      if (left < ids_.size()) {
-        of_left.hi[axis] = std::min(box.hi[axis], static_cast<float>(left_end(k)));
-        pending.emplace_back(left, of_left);
-      }
+      std::array boxes{box, box};
+      boxes[0].hi[axis] = std::min(box.hi[axis], static_cast<float>(left_end(k)));
+      pending.push_back({left, boxes[0], level + 1});
       if (right < ids_.size()) {
-        of_right.lo[axis] = std::max(box.lo[axis], static_cast<float>(right_begin(k)));
-        pending.emplace_back(right, of_right);
+        boxes[1].lo[axis] = std::max(box.lo[axis], static_cast<float>(right_begin(k)));
+        pending.push_back({right, boxes[1], level + 1});
       }
+      sums.add_children(level, box, std::span(boxes).first(right < ids_.size() ? 2 : 1));
     }
-    facts.expected_spheres = facts.expected_nodes;
+    sums.put(facts);
     return facts;
   }
 

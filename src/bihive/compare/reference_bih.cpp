@@ -1,13 +1,15 @@
 // bih: the reference bounding interval hierarchy of the thesis, traversed as bih/traversal.h defines it.
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "bihive/bih/child_boxes.h"
 #include "bihive/bih/reference_builder.h"
-#include "bihive/bih/statistics.h"
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
+#include "bihive/compare/level_sums.h"
 #include "bihive/compare/ray_path.h"
 #include "bihive/compare/sphere_limit.h"
 
@@ -32,30 +34,32 @@ class ReferenceBih final : public ByRay<ReferenceBih> {
   ReferenceBih(const SphereSet& spheres, const Tree& tree) : ByRay(spheres), tree_(tree) {}
 
   StructureFacts facts() const override {
-    const TreeStatistics statistics = tree_statistics(tree_);
     StructureFacts facts;
     facts.bytes = tree_.allocated_bytes();
     facts.nodes = static_cast<std::int64_t>(tree_.nodes.size());
-    facts.leaves = statistics.leaves;
-    facts.references = statistics.spheres;
-    facts.depth = spheres().empty() ? 0 : statistics.depth.max;
-    // Add up the nodes' boxes, as the planes above cut them.
-    const double whole = half_surface(tree_.aabb);
-    if (!(whole > 0)) return facts;
-    facts.expected_nodes = facts.expected_spheres = 0;
-    std::vector<std::pair<std::int64_t, Aabb>> pending{{0, tree_.aabb}};
+    if (spheres().empty()) return facts;
+    // The nodes' boxes, as the planes above cut them.
+    struct Part {
+      std::int64_t node;
+      Aabb box;
+      std::int64_t level;
+    };
+    LevelSums sums(tree_.aabb);
+    std::vector<Part> pending{{0, tree_.aabb, 1}};
     while (!pending.empty()) {
-      const auto [position, box] = pending.back();
+      const auto [position, box, level] = pending.back();
       pending.pop_back();
       const Node& node = tree_.nodes[static_cast<std::size_t>(position)];
-      const double share = half_surface(box) / whole;
-      facts.expected_nodes += share;
-      facts.expected_spheres += share * static_cast<double>(node.is_leaf() ? node.sphere_count : 0);
+      sums.add(level, box, node.is_leaf(), node.is_leaf() ? node.sphere_count : 0);
       if (node.is_leaf()) continue;
-      const ChildBoxes boxes = child_boxes(node, box);
-      pending.emplace_back(node.first, boxes.first);
-      if (node.kind == NodeKind::split) pending.emplace_back(node.right_child(), boxes.second);
+      const ChildBoxes of_children = child_boxes(node, box);
+      const std::array boxes{of_children.first, of_children.second};
+      const bool is_split = node.kind == NodeKind::split;
+      sums.add_children(level, box, std::span(boxes).first(is_split ? 2 : 1));
+      pending.push_back({node.first, boxes[0], level + 1});
+      if (is_split) pending.push_back({node.right_child(), boxes[1], level + 1});
     }
+    sums.put(facts);
     return facts;
   }
 

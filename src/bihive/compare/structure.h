@@ -39,6 +39,19 @@ struct PathStep {
 /// The nodes of a ray in the order of its steps. The first step of a structure without nodes has all its spheres.
 using RayPath = std::vector<PathStep>;
 
+/// The nodes of a tree on one level. A line is a random one through the structure's box, which it meets with a
+/// probability proportional to their surfaces.
+struct LevelFacts {
+  std::int64_t nodes = 0;      ///< leaves included
+  std::int64_t leaves = 0;
+  std::int64_t references = 0;  ///< spheres that the nodes list
+  double expected_nodes = 0, expected_spheres = 0;  ///< of the level, along a line; NaN where the box has no surface
+  /// Of its inner nodes, NaN where there is none: how many children a line enters that enters the node (below 1 there
+  /// are gaps between them), and the surface that children share, pair by pair, per surface of their node (above 0 they
+  /// overlap).
+  double children = std::numeric_limits<double>::quiet_NaN(), overlap = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// Properties of a built structure, independent of queries.
 struct StructureFacts {
   std::int64_t bytes = 0;       ///< of the structure alone; the set has 16 more per sphere
@@ -50,6 +63,8 @@ struct StructureFacts {
   /// probability that it meets a box inside is proportional to that box's surface. NaN where the box has no surface.
   double expected_nodes = std::numeric_limits<double>::quiet_NaN();
   double expected_spheres = std::numeric_limits<double>::quiet_NaN();
+
+  std::vector<LevelFacts> levels;  ///< from the root's on; empty without a tree
 
   double expected_cost() const { return expected_nodes + expected_spheres; }
 };

@@ -4,14 +4,20 @@
 
 #include "bihive/compare/boxes.h"
 #include "bihive/compare/by_ray.h"
+#include "bihive/compare/level_sums.h"
 #include "bihive/compare/nearest_first.h"
 #include "bihive/compare/ray_path.h"
 #include "bihive/wide/point_queries.h"
 #include "bihive/wide/wide_builder.h"
-#include "bihive/wide/wide_statistics.h"
 
 namespace bihive::workbench {
 namespace {
+
+Aabb box_of_child(const WideNode& node, int slot) {
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) box.lo[axis] = node.lo[axis][slot], box.hi[axis] = node.hi[axis][slot];
+  return box;
+}
 
 // The work of a scalar traversal of the same tree, one query at a time. Its spheres are those of the tree: of equal
 // ones in one place, the tree may have only the first.
@@ -59,9 +65,7 @@ class WideWork final : public ByRay<WideWork> {
         return false;
       }
       for (int slot = 0; slot < at.node->child_count; ++slot) {
-        Aabb box;
-        for (int axis = 0; axis < 3; ++axis)
-          box.lo[axis] = at.node->lo[axis][slot], box.hi[axis] = at.node->hi[axis][slot];
+        const Aabb box = box_of_child(*at.node, slot);
         counter.box_test();
         if (at.node->is_leaf(slot))
           wait(Child{nullptr, at.node->sphere_begin(slot), at.node->sphere_count(slot)}, entry(box));
@@ -81,16 +85,35 @@ class WideBih final : public Structure {
       : tree_(std::move(tree)), work_(spheres, *tree_) {}
 
   StructureFacts facts() const override {
-    const WideStatistics statistics = wide_statistics(*tree_);
     StructureFacts facts;
-    facts.bytes = statistics.used_bytes;
-    facts.nodes = statistics.nodes + statistics.leaves;
-    facts.leaves = statistics.leaves;
-    facts.references = tree_->placed;
-    facts.depth = tree_->node_count == 0 ? 0 : tree_->levels + 1;
-    if (!(half_surface(tree_->aabb) > 0)) return facts;
-    facts.expected_nodes = statistics.expected_nodes + statistics.expected_leaves;
-    facts.expected_spheres = statistics.expected_spheres;
+    facts.bytes = tree_->used_bytes();
+    if (tree_->node_count == 0) return facts;
+    LevelSums sums(tree_->aabb);
+    struct Part {
+      const WideNode* node;
+      Aabb box;
+      std::int64_t level;
+    };
+    std::vector<Part> pending{{tree_->nodes, tree_->aabb, 1}};
+    std::vector<Aabb> boxes;
+    while (!pending.empty()) {
+      const Part at = pending.back();
+      pending.pop_back();
+      ++facts.nodes;
+      sums.add(at.level, at.box, false, 0);
+      boxes.clear();
+      for (int slot = 0; slot < at.node->child_count; ++slot) {
+        boxes.push_back(box_of_child(*at.node, slot));
+        if (!at.node->is_leaf(slot)) {
+          pending.push_back({tree_->nodes + at.node->child_node(slot), boxes.back(), at.level + 1});
+          continue;
+        }
+        ++facts.nodes;
+        sums.add(at.level + 1, boxes.back(), true, at.node->sphere_count(slot));
+      }
+      sums.add_children(at.level, at.box, boxes);
+    }
+    sums.put(facts);
     return facts;
   }
 
