@@ -67,11 +67,13 @@ class LevelSums {
     if (std::ssize(levels_) < level) levels_.resize(static_cast<std::size_t>(level));
     return levels_[static_cast<std::size_t>(level - 1)];
   }
+  // Boxes that touch share nothing.
   static Aabb common_part(const Aabb& a, const Aabb& b) {
     Aabb part;
     for (int axis = 0; axis < 3; ++axis) {
       part.lo[axis] = std::max(a.lo[axis], b.lo[axis]);
       part.hi[axis] = std::min(a.hi[axis], b.hi[axis]);
+      if (!(part.lo[axis] < part.hi[axis])) return {};
     }
     return part;
   }
