@@ -23,7 +23,7 @@ VALUES = {
     "clip": "plane:0,0,1,0", "element_colours": "jmol", "cell_width": "2", "cell_colour": "red", "title": "--t = {time:.1f}",
     "legend_title": "Charge (e)", "length_unit": "nm", "title_values": "log.csv", "smooth": "5", "exposed_area": "1.4", "font": "letters.ttf", "floor": "shadow",
     "bonds": "distance", "bond_reach": "1.3", "stick_radius": "0.2", "ball_scale": "0.3",
-    "arrows": "x,y,z", "arrow_select": "chain A", "arrow_scale": "2", "arrow_radius": "0.2", "arrow_pivot": "middle", "arrow_colour": "b_factor:magma:0,60",
+    "arrows": "x,y,z", "arrow_select": "chain A", "arrow_scale": "2", "arrow_share": "0.2", "arrow_radius": "0.2", "arrow_pivot": "middle", "arrow_colour": "b_factor:magma:0,60",
     "trace": "chain", "trace_select": "name CA", "trace_radius": "b_factor/50", "trace_atoms": "shown",
     "trail": "5", "trail_select": "chain A", "trail_radius": "0.1", "hbond_radius": "0.05", "hbond_colour": "yellow",
     "show_cavities": "1.4", "links": "pairs.csv", "link_radius": "force:0.1", "link_colour": "force:magma:0,9",

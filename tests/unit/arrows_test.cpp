@@ -90,6 +90,21 @@ TEST(Arrows, may_be_centred_on_their_spheres_and_be_short) {
   EXPECT_EQ(add_arrows(small, arrows)->inside, 1);
 }
 
+TEST(Arrows, may_be_as_long_as_a_share_of_the_set) {
+  Scene scene = scene_with_vectors();
+  const SphereSet::Bounds bounds = scene.spheres.bounds();
+  const Vec3d sides = bounds.hi - bounds.lo;
+  Arrows arrows = forces();
+  arrows.scale = 77;
+  arrows.share = 0.25;
+  const Result<AddedArrows> added = add_arrows(scene, arrows);
+  ASSERT_TRUE(added.ok());
+  EXPECT_NEAR(added->longest, 0.25 * std::max({sides.x, sides.y, sides.z}), 1e-9);
+  arrows.components = "fz,fz,fz";
+  Scene none = scene_with_vectors();
+  EXPECT_EQ(add_arrows(none, arrows)->count, 0);
+}
+
 TEST(Arrows, of_a_selection_in_colours_of_their_own) {
   Scene scene = scene_with_vectors();
   Arrows arrows = forces();

@@ -81,6 +81,8 @@ void check_fixed_range(const char* setting, const std::string& text, const Scene
 }
 
 void draw_arrows(const Arrows& arrows, bool is_of_film, Scene& scene) {
+  if (is_of_film && arrows.share > 0)
+    fail_setting("arrow_share", " has another scale in each picture of a film", "give " + setting_name("arrow_scale"));
   const Result<AddedArrows> done = add_arrows(scene, arrows);
   const AddedArrows& added = added_or_fail(done);
   if (is_of_film) check_fixed_range("arrow_colour", arrows.colour, scene);

@@ -40,6 +40,26 @@ Result<Components> components_of(const SphereSet& spheres, const std::string& te
   return found;
 }
 
+Vec3d vector_at(const Components& components, const SphereSet& spheres, std::int64_t id) {
+  Vec3d vector;
+  for (int axis = 0; axis < 3; ++axis)
+    vector[axis] = components[static_cast<std::size_t>(axis)].number_of(spheres, id);
+  return vector;
+}
+
+// The scale at which the longest finite vector has a share of the set's longest side.
+double scale_by_share(const Components& components, const SphereSet& spheres, const std::vector<std::uint8_t>& mask,
+                      double share) {
+  double longest = 0;
+  for (std::int64_t id = 0; id < spheres.size(); ++id)
+    if (const double extent = length(vector_at(components, spheres, id));
+        mask[static_cast<std::size_t>(id)] != 0 && std::isfinite(extent))
+      longest = std::max(longest, extent);
+  const SphereSet::Bounds bounds = spheres.bounds();
+  const Vec3d sides = bounds.hi - bounds.lo;
+  return longest > 0 ? share * std::max({sides.x, sides.y, sides.z}) / longest : 1;
+}
+
 // `shaft`: its radius.
 void add_arrow(Vec3d tail, Vec3d vector, double shaft, OwnStick like, std::vector<OwnStick>& sticks) {
   const double long_head = kArrowHeadLength * shaft, extent = length(vector);
@@ -77,12 +97,12 @@ Result<AddedArrows> add_arrows(Scene& scene, const Arrows& arrows) {
 
   AddedArrows added;
   std::vector<OwnStick> sticks;
+  const double scale =
+      arrows.share > 0 ? scale_by_share(*components, spheres, mask, arrows.share) : arrows.scale;
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     const auto i = static_cast<std::size_t>(id);
     if (mask[i] == 0) continue;
-    Vec3d vector;
-    for (int axis = 0; axis < 3; ++axis)
-      vector[axis] = arrows.scale * (*components)[static_cast<std::size_t>(axis)].number_of(spheres, id);
+    const Vec3d vector = scale * vector_at(*components, spheres, id);
     const double extent = length(vector);
     if (!std::isfinite(extent)) ++added.unknown;
     if (!std::isfinite(extent) || extent == 0) continue;
