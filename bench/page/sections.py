@@ -1,10 +1,16 @@
 """The sections of docs/performance.md: each makes lines of Markdown and charts of one report."""
 
+import pathlib
 import re
 import statistics
+import sys
 
 import svg
 import targets
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "cliffs"))
+
+import worst as worst_sets  # noqa: E402
 from markdown import number, picture, table, times, verdict
 
 
@@ -223,7 +229,8 @@ def light_rows(results):
         ours, theirs = result["mray_per_s"], result["peer"]["mray_per_s"]
         floor_random, floor_shared = targets.AMBIENT[result["scene"]]
         beside_random, beside_shared = ours["ao"] / theirs["ao_random"], ours["ao"] / theirs["ao"]
-        met = beside_random >= floor_random and beside_shared >= floor_shared
+        own = ratio(result, "ao_random")
+        met = beside_random >= floor_random and beside_shared >= floor_shared and own >= targets.AMBIENT_OWN
         rows.append(
             [
                 title_of(result),
@@ -232,7 +239,7 @@ def light_rows(results):
                 number(ours["ao"]),
                 f"{number(theirs['ao_random'])} **{times(beside_random)}** ({floor_random}x)",
                 f"{number(theirs['ao'])} **{times(beside_shared)}** ({floor_shared}x)",
-                f"{number(ours['ao_random'])} **{times(ratio(result, 'ao_random'))}**",
+                f"{number(ours['ao_random'])} **{times(own)}** ({targets.AMBIENT_OWN}x)",
                 "met" if met else "missed",
             ]
         )
@@ -251,6 +258,99 @@ def light(report):
     ]
     heads = ["scene", "distance", "threads", "bihive, shared", "Embree, random", "Embree, shared", "bihive, random", ""]
     return lines + table(heads, light_rows(results)), {}
+
+
+BOUND_TITLES = {**targets.TITLES, "ao_random": "ambient, random", "comb": "comb"}
+
+
+def floor_of(scene, kind):
+    own = {"ao_random": targets.AMBIENT_OWN, "comb": targets.COMB}
+    return own.get(kind) or targets.ratio_target(scene, kind)[0]
+
+
+def bound(report):
+    lines = [
+        "## Incoherent rays beside a bound",
+        "",
+        "One thread. The bound is the rate of an engine that tests each ray by itself against this tree, sixteen boxes or spheres at a",
+        "time, and whose vector ports never wait: for memory, for the next node's address, or for the schedule. \"Proof\" counts the nodes",
+        "and leaves that an oracle which knows the answer must still open, \"in order\" those of a search from near to far, by which the bound",
+        "goes. What lies between the bound and the rate is waiting and bookkeeping; a floor above the bound cannot be met without",
+        "sharing work among rays, as beams do, or another tree. Bytes are those of nodes, spheres, rays and answers, per ray, each read once. Comb:",
+        "parallel rays, row by row.",
+        "",
+    ]
+    heads = ["scene", "rays", "bihive", "beside Embree", "floor", "bound", "reached", "nodes: proof", "in order", "leaves: proof", "in order", "bytes"]
+    rows = []
+    for run in report["runs"]:
+        result = run["result"]
+        scene = result["input"].split()[0]
+        for kind, least in result["bound"].items():
+            rate, beside, floor = result["mray_per_s"][kind], ratio(result, kind), floor_of(scene, kind)
+            rows.append(
+                [
+                    scene,
+                    BOUND_TITLES[kind],
+                    number(rate),
+                    f"**{times(beside)}**",
+                    f"{floor}x: {verdict(beside, floor)}",
+                    number(least["mray_per_s"]),
+                    f"{100 * rate / least['mray_per_s']:.0f} %",
+                    *(number(least[key]) for key in ("nodes", "nodes_in_order", "leaves", "leaves_in_order", "bytes")),
+                ]
+            )
+    return lines + table(heads, rows), {}
+
+
+def cliffs(report):
+    results = [run["result"] for run in report["runs"]]
+    rows = worst_sets.cliffs(results)
+    kinds = list(dict.fromkeys(row[0] for row in rows))
+    wrong = sum(result["mismatches"] for result in results)
+    lines = [
+        "## Hostile sets",
+        "",
+        f"{len(results)} sets of up to {max(result['spheres'] for result in results):,} spheres: hostile ones, and such as people have (`bench/cliffs/sets.py`), one thread, all kinds of rays beside",
+        f"Embree. A kind is at a cliff where it is below {worst_sets.FLOOR} times Embree's speed, or below a quarter of the median of all sets;",
+        f"[performance_findings.md](performance_findings.md) has the reasons. Of the answers {wrong} were wrong.",
+        "",
+    ]
+    by_kind = []
+    for kind in kinds:
+        of_kind = [row for row in rows if row[0] == kind]
+        lowest = min((row for row in of_kind if row[3] is not None), key=lambda row: row[3], default=None)
+        median = statistics.median(row[2] for row in of_kind)
+        by_kind.append(
+            [
+                BOUND_TITLES.get(kind, "ambient, shared" if kind == "ao" else kind),
+                number(median),
+                f"{of_kind[0][1]}: {number(of_kind[0][2])} ({of_kind[0][4]:.2f})",
+                "" if lowest is None else f"{lowest[1]}: {times(lowest[3])}",
+                sum(row[3] is not None and row[3] < worst_sets.FLOOR for row in of_kind),
+                sum(row[4] < worst_sets.SHARE for row in of_kind),
+            ]
+        )
+    lines += table(["rays", "median Mray/s", "slowest set (share of the median)", "lowest beside Embree", "below the floor", "below a quarter"], by_kind)
+    lines += ["All sets: the lowest ratio to Embree and the lowest share of the median, each with its kind of rays.", ""]
+    sets = []
+    for result in results:
+        of_set = [row for row in rows if row[1] == result["set"]]
+        beside = min((row for row in of_set if row[3] is not None), key=lambda row: row[3], default=None)
+        share = min(of_set, key=lambda row: row[4])
+        name = lambda kind: BOUND_TITLES.get(kind, "ambient, shared" if kind == "ao" else kind)  # noqa: E731
+        sets.append(
+            [
+                result["set"],
+                f"{result['spheres']:,}",
+                number(result["bytes_per_sphere"]),
+                number(1e6 * result["build_ms"] / result["spheres"]),
+                times(ratio(result, "build")),
+                "" if beside is None else f"{'**' * (beside[3] < worst_sets.FLOOR)}{times(beside[3])}{'**' * (beside[3] < worst_sets.FLOOR)} ({name(beside[0])})",
+                f"{'**' * (share[4] < worst_sets.SHARE)}{share[4]:.2f}{'**' * (share[4] < worst_sets.SHARE)} ({name(share[0])})",
+            ]
+        )
+    lines += table(["set", "spheres", "bytes per sphere", "build ns per sphere", "build beside Embree", "lowest beside Embree", "lowest share"], sets)
+    return lines, {}
 
 
 def pictures(report):
@@ -570,6 +670,8 @@ SECTIONS = [
     ("scenes", scenes),
     ("avx2", avx2),
     ("light", light),
+    ("bound", bound),
+    ("cliffs", cliffs),
     ("pictures", pictures),
     ("occlusion", occlusion),
     ("thesis", thesis),

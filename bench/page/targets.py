@@ -17,15 +17,17 @@ TITLES = {
 
 # A line for each group of scenes: (floor, aim) of primary, random, first shadow, mirror, their shadows, build.
 _RATIOS = [
-    [(7, 12), (2, 4), (4.5, 8), (2.1, 4), (2, 3.5), (5.5, 10)],
-    [(4.5, 10), (2, 3.5), (1.9, 5), (1.9, 4), (1.7, 3.5), (4.5, 10)],
-    [(3.5, 8), (2.3, 5), (2.4, 5), (2.4, 4.5), (2.2, 4), (7, 10)],
+    [(7, 12), (2.8, 4), (4.5, 8), (2.8, 4), (3, 5), (5.5, 10)],
+    [(4.5, 10), (2.8, 4), (4, 8), (2.8, 4), (3, 5), (4.5, 10)],
+    [(3.5, 8), (2.8, 5), (4, 8), (2.8, 4.5), (3, 5), (7, 10)],
 ]
 _COLUMN = {"primary": 0, "random": 1, "shadow": 2, "mirror1": 3, "mirror2": 3, "mirror3": 3, "build": 5}
 _COLUMN.update({"mirror_shadow2": 4, "mirror_shadow3": 4})
 
 # Rays of ambient occlusion along shared directions: floors beside Embree's along random ones, and along the same ones.
-AMBIENT = {"s1": (3, 2), "mol": (5, 3), "u1e5": (2.5, 2), "u1e6": (4, 3)}
+AMBIENT = {"s1": (3, 5), "mol": (5, 5), "u1e5": (2.5, 5), "u1e6": (4, 5)}
+AMBIENT_OWN = 3  # both along random ones
+COMB = 2.5
 
 BYTES = (19, 16.5)  # per sphere, at most
 AVX2 = {"primary": 4.5, "random": 1.3, "shadow": 1.8, "mirror1": 1.4, "mirror2": 1.4, "mirror3": 1.4}
@@ -34,7 +36,7 @@ PICTURE = (4, 8)  # times as fast as Tachyon
 OCCLUSION = {"1tii": (8, 16), "u1e6": (4, 8)}
 FILE_TO_PNG_S = 0.5  # a molecule of 5,684 atoms without any option, as an aim
 # Frames of the thesis with bytes in memory, on two cores: the floor by instruction set, and the aim.
-THESIS_FLOORS = {"avx512": 240, "avx2": 150}
+THESIS_FLOORS = {"avx512": 240, "avx2": 240}
 THESIS_AIM = 500
 WASM = 4  # times the native time, at most
 PAGE_MB = 2  # a visitor's download, compressed with gzip, at most
