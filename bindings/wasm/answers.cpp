@@ -11,8 +11,7 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string version_text() {
-  const std::string commit(bihive::commit());
-  return std::string(version()) + (commit.empty() ? "" : " (" + commit + ")");
+  return version_with_commit(version(), commit());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bihive/geometry/sphere_set.h"
+#include "bihive/math/spread_bits.h"
 
 namespace bihive::workbench {
 
@@ -13,14 +14,6 @@ struct MortonSphere {
   std::uint64_t code;  ///< 21 bits for each axis
   std::uint32_t id;
 };
-
-inline std::uint64_t spread_bits(std::uint64_t bits) {
-  bits = (bits | bits << 32) & 0x1F00000000FFFFu;
-  bits = (bits | bits << 16) & 0x1F0000FF0000FFu;
-  bits = (bits | bits << 8) & 0x100F00F00F00F00Fu;
-  bits = (bits | bits << 4) & 0x10C30C30C30C30C3u;
-  return (bits | bits << 2) & 0x1249249249249249u;
-}
 
 /// By code, then id. Cells are cubes: 2^21 along the longest side of the centres' box.
 inline std::vector<MortonSphere> along_the_z_curve(const SphereSet& spheres) {

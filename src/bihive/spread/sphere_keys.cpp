@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "bihive/math/spread_bits.h"
+
 namespace bihive {
 namespace {
 
@@ -13,15 +15,6 @@ std::uint64_t cell_along(float place) {
   constexpr double kCells = std::uint64_t{1} << kBits;
   const double cell = (double(place) + 1) * (0.5 * kCells);
   return static_cast<std::uint64_t>(std::clamp(cell, 0.0, kCells - 1));
-}
-
-// Two zero bits after each of the lower 21 bits.
-std::uint64_t spread_bits(std::uint64_t bits) {
-  bits = (bits | bits << 32) & 0x001F00000000FFFF;
-  bits = (bits | bits << 16) & 0x001F0000FF0000FF;
-  bits = (bits | bits << 8) & 0x100F00F00F00F00F;
-  bits = (bits | bits << 4) & 0x10C30C30C30C30C3;
-  return (bits | bits << 2) & 0x1249249249249249;
 }
 
 // Bits that ascend with the number. -0 and 0 are equal.
