@@ -395,7 +395,7 @@ static void test_pictures(void) {
   const char* json = "{\"bihive_scene\": 1, \"spheres\": [[0, 0, 0, 1]]}";
   const char* xyz = "2\ntwo\nO 0 0 0\nC 3 0 0\n";
   const char* spins = "x,y,z,r,sx,sy,sz\n0,0,0,0.4,0,1,0\n";
-  const char* of_arrows[] = {"arrows", "arrow_scale", "arrow_radius", "arrow_colour", "arrow_pivot"};
+  const char* of_arrows[] = {"arrows", "arrow_scale", "arrow_share", "arrow_radius", "arrow_colour", "arrow_pivot"};
   bihive_scene* scene = NULL;
 
   EXPECT(bihive_scene_methods(NULL) == NULL);

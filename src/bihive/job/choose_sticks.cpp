@@ -6,6 +6,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "bihive/base/setting_name.h"
@@ -20,17 +21,21 @@
 #include "bihive/scene/links.h"
 #include "bihive/scene/traces.h"
 #include "bihive/scene/trails.h"
+#include "bihive/settings/parameter.h"
 
 namespace bihive {
 namespace {
 
 // ---- Settings of what is not there -----------------------------------------------------------------------------
 
-void refuse_settings(const PictureRequest& request, bool any, std::initializer_list<const char*> ids,
+// Settings whose ids begin so.
+void refuse_settings(const PictureRequest& request, bool any, std::initializer_list<std::string_view> beginnings,
                      const std::string& what, const std::string& hint) {
-  for (const char* const id : ids)
-    if (!any && request.picture.has(id))
-      fail_setting(id, " is for pictures with " + what + ", and this one has none", hint);
+  if (any) return;
+  for (const std::string_view beginning : beginnings)
+    for (const Parameter& row : picture_parameters())
+      if (row.id.starts_with(beginning) && request.picture.has(row.id))
+        fail_setting(std::string(row.id), " is for pictures with " + what + ", and this one has none", hint);
 }
 
 void refuse_distributed(const WholeSet* whole, bool any, const char* id, const std::string& fault,
@@ -146,7 +151,7 @@ ChosenSticks choose_sticks(const PictureRequest& request, const Scene& scene, co
   request.picture.apply_to(picture);
   const Sticks& bonds = picture.sticks;
   const bool has_bonds = bonds.bonds != Bonds::none;
-  refuse_settings(request, has_bonds, {"bond_reach", "bond_orders", "stick_radius", "ball_scale"}, "bonds",
+  refuse_settings(request, has_bonds, {"bond_", "stick_radius", "ball_scale"}, "bonds",
                   "add " + setting_name("bonds") + " auto");
   if (bonds.bonds == Bonds::file && request.picture.has("bond_reach"))
     fail_setting("bond_reach", " is for bonds by distance", "add " + setting_name("bonds") + " auto");
@@ -155,22 +160,22 @@ ChosenSticks choose_sticks(const PictureRequest& request, const Scene& scene, co
   refuse_distributed(whole, has_bonds, "bonds", " are not found between", "add " + setting_name("bonds") + " none");
 
   const HydrogenBonds& hydrogen_bonds = picture.hydrogen_bonds;
-  refuse_settings(request, hydrogen_bonds.any(), {"hbond_radius", "hbond_colour"}, "hydrogen bonds",
+  refuse_settings(request, hydrogen_bonds.any(), {"hbond_"}, "hydrogen bonds",
                   "add " + setting_name("hbonds"));
   refuse_distributed(whole, hydrogen_bonds.any(), "hbonds", " are not found between");
 
   const Arrows& arrows = picture.arrows;
-  refuse_settings(request, arrows.any(), {"arrow_select", "arrow_scale", "arrow_radius", "arrow_pivot", "arrow_colour"},
+  refuse_settings(request, arrows.any(), {"arrow_"},
                   "arrows", "add " + setting_name("arrows") + " VX,VY,VZ");
   refuse_distributed(whole, arrows.any(), "arrows", " are not drawn on");
 
   const Traces& traces = picture.traces;
-  refuse_settings(request, traces.any(), {"trace_select", "trace_radius", "trace_atoms"}, "tubes",
+  refuse_settings(request, traces.any(), {"trace_"}, "tubes",
                   "add " + setting_name("trace") + " chain");
   refuse_distributed(whole, traces.any(), "trace", ": no tubes are drawn through");
 
   const Trails& trails = picture.trails;
-  refuse_settings(request, trails.any(), {"trail_select", "trail_radius"}, "trails",
+  refuse_settings(request, trails.any(), {"trail_"}, "trails",
                   "add " + setting_name("trail") + " N");
   refuse_distributed(whole, trails.any(), "trail", ": no trails are drawn behind");
 
