@@ -260,24 +260,24 @@ def light(report):
     return lines + table(heads, light_rows(results)), {}
 
 
-BOUND_TITLES = {**targets.TITLES, "ao_random": "ambient, random", "comb": "comb"}
+BOUND_TITLES = {**targets.TITLES, "ao": "ambient, shared", "ao_random": "ambient, random", "comb": "comb"}
 
 
 def floor_of(scene, kind):
-    own = {"ao_random": targets.AMBIENT_OWN, "comb": targets.COMB}
+    own = {"ao": targets.AMBIENT_SHARED, "ao_random": targets.AMBIENT_OWN, "comb": targets.COMB}
     return own.get(kind) or targets.ratio_target(scene, kind)[0]
 
 
 def bound(report):
     lines = [
-        "## Incoherent rays beside a bound",
+        "## Rays beside a bound",
         "",
         "One thread. The bound is the rate of an engine that tests each ray by itself against this tree, sixteen boxes or spheres at a",
-        "time, and whose vector ports never wait: for memory, for the next node's address, or for the schedule. \"Proof\" counts the nodes",
-        "and leaves that an oracle which knows the answer must still open, \"in order\" those of a search from near to far, by which the bound",
-        "goes. What lies between the bound and the rate is waiting and bookkeeping; a floor above the bound cannot be met without",
-        "sharing work among rays, as beams do, or another tree. Bytes are those of nodes, spheres, rays and answers, per ray, each read once. Comb:",
-        "parallel rays, row by row.",
+        "time, knows where to look, and whose vector ports never wait: for memory, for the next node's address, or for the schedule. \"Proof\"",
+        "counts the nodes and leaves that an oracle which knows the answer must still open, by which the bound goes; \"in order\" counts those of a",
+        "search from near to far. What lies between the bound and the rate is the search, waiting and bookkeeping. Beams share tests among rays, so",
+        "shadow rays and ambient occlusion along shared directions may exceed it. Bytes are those of nodes, spheres, rays and answers, per ray, each",
+        "read once. Comb: parallel rays, row by row.",
         "",
     ]
     heads = ["scene", "rays", "bihive", "beside Embree", "floor", "bound", "reached", "nodes: proof", "in order", "leaves: proof", "in order", "bytes"]
@@ -322,7 +322,7 @@ def cliffs(report):
         median = statistics.median(row[2] for row in of_kind)
         by_kind.append(
             [
-                BOUND_TITLES.get(kind, "ambient, shared" if kind == "ao" else kind),
+                BOUND_TITLES[kind],
                 number(median),
                 f"{of_kind[0][1]}: {number(of_kind[0][2])} ({of_kind[0][4]:.2f})",
                 "" if lowest is None else f"{lowest[1]}: {times(lowest[3])}",
@@ -337,7 +337,6 @@ def cliffs(report):
         of_set = [row for row in rows if row[1] == result["set"]]
         beside = min((row for row in of_set if row[3] is not None), key=lambda row: row[3], default=None)
         share = min(of_set, key=lambda row: row[4])
-        name = lambda kind: BOUND_TITLES.get(kind, "ambient, shared" if kind == "ao" else kind)  # noqa: E731
         sets.append(
             [
                 result["set"],
@@ -345,8 +344,8 @@ def cliffs(report):
                 number(result["bytes_per_sphere"]),
                 number(1e6 * result["build_ms"] / result["spheres"]),
                 times(ratio(result, "build")),
-                "" if beside is None else f"{'**' * (beside[3] < worst_sets.FLOOR)}{times(beside[3])}{'**' * (beside[3] < worst_sets.FLOOR)} ({name(beside[0])})",
-                f"{'**' * (share[4] < worst_sets.SHARE)}{share[4]:.2f}{'**' * (share[4] < worst_sets.SHARE)} ({name(share[0])})",
+                "" if beside is None else f"{'**' * (beside[3] < worst_sets.FLOOR)}{times(beside[3])}{'**' * (beside[3] < worst_sets.FLOOR)} ({BOUND_TITLES[beside[0]]})",
+                f"{'**' * (share[4] < worst_sets.SHARE)}{share[4]:.2f}{'**' * (share[4] < worst_sets.SHARE)} ({BOUND_TITLES[share[0]]})",
             ]
         )
     lines += table(["set", "spheres", "bytes per sphere", "build ns per sphere", "build beside Embree", "lowest beside Embree", "lowest share"], sets)

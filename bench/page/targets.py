@@ -25,8 +25,8 @@ _COLUMN = {"primary": 0, "random": 1, "shadow": 2, "mirror1": 3, "mirror2": 3, "
 _COLUMN.update({"mirror_shadow2": 4, "mirror_shadow3": 4})
 
 # Rays of ambient occlusion along shared directions: floors beside Embree's along random ones, and along the same ones.
-AMBIENT = {"s1": (3, 5), "mol": (5, 5), "u1e5": (2.5, 5), "u1e6": (4, 5)}
-AMBIENT_OWN = 3  # both along random ones
+AMBIENT_SHARED, AMBIENT_OWN = 5, 3  # both along shared ones, and both along random ones
+AMBIENT = {scene: (beside_random, AMBIENT_SHARED) for scene, beside_random in {"s1": 3, "mol": 5, "u1e5": 2.5, "u1e6": 4}.items()}
 COMB = 2.5
 
 BYTES = (19, 16.5)  # per sphere, at most
