@@ -21,7 +21,9 @@
 #include "bihive/render/query/stick_engine.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/scene.h"
+#include "bihive/simd/target.h"
 #include "support/edge_rays.h"
+#include "support/effort.h"
 #include "support/hostile_sets.h"
 #include "support/scenes.h"
 #include "support/stick_oracle.h"
@@ -167,6 +169,30 @@ TEST(Sticks, EndsAreSpheresBitForBit) {
     }
   });
   EXPECT_GT(ends, 3000);
+}
+
+// What drops sticks before the roots never drops one that has them, and drops most rays that pass a stick.
+TEST(Sticks, ThatSurelyMissHaveNoRoots) {
+  int missed = 0, dropped = 0;
+  for_each_case(3000, [&](const Case& one) {
+    const ScaledRay ray(one.ray, 1);
+    const bool misses = std::isnan(stick_roots(ray, one.stick).t_near);
+    ASSERT_TRUE(misses || !surely_misses(ray, one.stick)) << text_of(one);
+    // A ray that passes beside it: moved across axis and ray by up to three radii.
+    Case beside = one;
+    const Vec3d across = cross(to_double(one.ray.direction), one.stick.b - one.stick.a);
+    const double extent = length(across);
+    if (!(extent > 0)) return;
+    const double share = static_cast<double>(missed % 60) / 20;
+    const double away = share * std::max(one.stick.radius_a, one.stick.radius_b);
+    beside.ray.origin = to_float(to_double(one.ray.origin) + (away / extent) * across);
+    const ScaledRay passing(beside.ray, 1);
+    const bool has_none = std::isnan(stick_roots(passing, one.stick).t_near);
+    ASSERT_TRUE(has_none || !surely_misses(passing, one.stick)) << text_of(beside);
+    ++missed;
+    dropped += surely_misses(passing, one.stick) ? 1 : 0;
+  });
+  EXPECT_GT(dropped, missed / 10);
 }
 
 TEST(Sticks, WithoutASideAreTheirLargerBall) {
@@ -339,39 +365,52 @@ TEST(Sticks, TheTreeLosesNothing) {
     for (const double share : {0x1p-10, 0x1p-4, 0.5}) {
       const StickSet sticks = chain_of(spheres, share * spheres.inverse_scale(), rng);
       auto tree = std::make_shared<const Tree>(build_reference_tree(spheres, BuildParameters()));
-      const StickEngine engine(spheres, sticks, std::make_shared<ReferenceEngine>(spheres, tree));
       test::EdgeRays rays(world, 72);
       RayBatch batch;
       std::vector<Hit> truths;
+      std::vector<std::vector<Hit>> all_truths;
       for (int i = 0; i < 150; ++i) {
         Ray ray = rays.next();
         if (i % 3 == 0)
           ray.leaves =
               spheres.total_size() + static_cast<std::int64_t>(rng.next_below(2 * std::uint64_t(sticks.size())));
-        const Hit truth = brute_closest(spheres, sticks, ray);
-        const Hit found = engine.closest_hit(ray);
-        ASSERT_TRUE(found.sphere_id == truth.sphere_id && same_bits(found.t, truth.t))
-            << found.t << " of " << found.sphere_id << ", not " << truth.t << " of " << truth.sphere_id << ": "
-            << test::text_of(ray);
-        ASSERT_EQ(engine.occluded(ray), truth.found()) << test::text_of(ray);
-        on_sticks += truth.sphere_id >= spheres.total_size() ? 1 : 0;
+        truths.push_back(brute_closest(spheres, sticks, ray));
+        all_truths.push_back(brute_all(spheres, sticks, ray));
+        on_sticks += truths.back().sphere_id >= spheres.total_size() ? 1 : 0;
         batch.push_back(ray);
-        truths.push_back(truth);
       }
-      HitBatch hits;
-      hits.resize(batch.size());
-      std::vector<std::uint8_t> hidden(static_cast<std::size_t>(batch.size()));
-      engine.closest_hits(batch.span(), RayOrder::any, hits.span());
-      engine.occluded(batch.span(), RayOrder::any, hidden.data());
-      std::vector<RayHit> all;
-      engine.all_hits(batch.span(), RayOrder::any, all);
-      for (std::size_t i = 0; i < truths.size(); ++i) {
-        ASSERT_EQ(hits.sphere_id[i], truths[i].sphere_id);
-        ASSERT_TRUE(same_bits(hits.t[i], truths[i].t));
-        ASSERT_EQ(hidden[i] != 0, truths[i].found());
-        const auto ray = static_cast<std::int64_t>(i);
-        ASSERT_NO_FATAL_FAILURE(expect_all(all, ray, brute_all(spheres, sticks, batch.span().at(ray))));
+      const auto of_spheres = std::make_shared<ReferenceEngine>(spheres, tree);
+      const auto check = [&](const StickEngine& engine) {
+        HitBatch hits;
+        hits.resize(batch.size());
+        std::vector<std::uint8_t> hidden(static_cast<std::size_t>(batch.size()));
+        engine.closest_hits(batch.span(), RayOrder::any, hits.span());
+        engine.occluded(batch.span(), RayOrder::any, hidden.data());
+        std::vector<RayHit> all;
+        engine.all_hits(batch.span(), RayOrder::any, all);
+        for (std::size_t i = 0; i < truths.size(); ++i) {
+          const auto number = static_cast<std::int64_t>(i);
+          const Ray ray = batch.span().at(number);
+          const Hit& truth = truths[i];
+          const Hit found = engine.closest_hit(ray);
+          ASSERT_TRUE(found.sphere_id == truth.sphere_id && same_bits(found.t, truth.t))
+              << found.t << " of " << found.sphere_id << ", not " << truth.t << " of " << truth.sphere_id << ": "
+              << test::text_of(ray);
+          ASSERT_EQ(engine.occluded(ray), truth.found()) << test::text_of(ray);
+          ASSERT_EQ(hits.sphere_id[i], truth.sphere_id);
+          ASSERT_TRUE(same_bits(hits.t[i], truth.t));
+          ASSERT_EQ(hidden[i] != 0, truth.found());
+          ASSERT_NO_FATAL_FAILURE(expect_all(all, number, all_truths[i]));
+        }
+      };
+      ASSERT_NO_FATAL_FAILURE(check(StickEngine(spheres, sticks, of_spheres, nullptr, /*by_vectors=*/false)));
+      const StickEngine by_vectors(spheres, sticks, of_spheres, nullptr, /*by_vectors=*/true);
+      for (const std::string& target : test::targets_under_test()) {
+        SCOPED_TRACE(target);
+        ASSERT_TRUE(use_target(target).ok());
+        ASSERT_NO_FATAL_FAILURE(check(by_vectors));
       }
+      ASSERT_TRUE(use_target("").ok());
     }
   }
   EXPECT_GT(on_sticks, 1000);
@@ -466,7 +505,8 @@ TEST(Sticks, LicoriceHasNoShadowsOfItsOwn) {
   Result<StickSet> sticks = StickSet::between(spheres, {{0, 1}, {1, 2}}, double(world.r[0]));
   ASSERT_TRUE(sticks.ok());
   auto tree = std::make_shared<const Tree>(build_reference_tree(spheres, BuildParameters()));
-  const StickEngine engine(spheres, *sticks, std::make_shared<ReferenceEngine>(spheres, tree));
+  const StickEngine engine(spheres, *sticks, std::make_shared<ReferenceEngine>(spheres, tree), nullptr,
+                           /*by_vectors=*/true);
   SplitMix64 rng(73);
   int starts[2] = {0, 0};
   for (int i = 0; i < 40000; ++i) {

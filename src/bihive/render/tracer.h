@@ -32,6 +32,11 @@ struct Scene;
 /// (spans of rays; a single ray goes as with `brute`). All give the same bits.
 enum class Engine { automatic, wide, reference, brute, wide_brute };
 
+/// Whether its queries use vectors; the others are scalar references.
+constexpr bool is_of_vectors(Engine engine) {
+  return engine != Engine::reference && engine != Engine::brute;
+}
+
 /// It has no tree.
 constexpr bool is_brute(Engine engine) {
   return engine == Engine::brute || engine == Engine::wide_brute;

@@ -13,31 +13,39 @@
 #include "bihive/geometry/stick_set.h"
 #include "bihive/render/query/image_ranges.h"
 #include "bihive/render/query/ray_engine.h"
+#include "bihive/render/query/stick_tree.h"
 
 namespace bihive {
 
-/// A decorator: adds sticks to an engine of the spheres. They have a tree of their own, which every engine traverses by
-/// the scalar traversal, up to where the ray meets a sphere; for the copies of a replicated set, one after the other.
+/// A decorator: adds sticks to an engine of the spheres. They have a tree of their own, up to where the ray meets a
+/// sphere; for the copies of a replicated set, one after the other. The scalar traversal takes rays to them, or, beside
+/// the engines of vectors, that of stick_tree.h.
 class StickEngine final : public RayEngine {
  public:
   /// Of all sticks. Spheres and sticks must outlive it. `cuts`: what clips leave of them; null: all. std::bad_alloc:
   /// there is not enough memory. Within a WatchedWork it may throw Cancelled.
   StickEngine(const SphereSet& spheres, const StickSet& sticks, std::shared_ptr<const RayEngine> of_spheres,
-              std::shared_ptr<const CutSet> cuts = nullptr)
-      : StickEngine(spheres, sticks, all_of(sticks), std::move(of_spheres), std::move(cuts)) {}
+              std::shared_ptr<const CutSet> cuts, bool by_vectors)
+      : StickEngine(spheres, sticks, all_of(sticks), std::move(of_spheres), std::move(cuts), by_vectors) {}
   /// Of the sticks of these numbers, ascending. Rays may exit the others too.
   StickEngine(const SphereSet& spheres, const StickSet& sticks, std::vector<std::int32_t> numbers,
-              std::shared_ptr<const RayEngine> of_spheres, std::shared_ptr<const CutSet> cuts = nullptr)
+              std::shared_ptr<const RayEngine> of_spheres, std::shared_ptr<const CutSet> cuts, bool by_vectors)
       : spheres_(spheres),
         sticks_(sticks),
         numbers_(std::move(numbers)),
         engine_of_spheres_(std::move(of_spheres)),
-        cuts_(std::move(cuts)) {
+        cuts_(std::move(cuts)),
+        by_vectors_(by_vectors) {
     constexpr std::int64_t kSticksOfLeaf = 2;  // a test of a stick costs more than that of a box
     std::vector<Aabb> boxes;
     boxes.reserve(numbers_.size());
     for (const std::int32_t stick : numbers_) boxes.push_back(sticks.stored_box(spheres, stick));
     tree_ = build_reference_tree(boxes, {kSticksOfLeaf, kUnlimited});
+    if (!by_vectors) return;
+    wide_tree_ = StickTree(boxes, tree_);
+    Tree alone;  // the box around all
+    alone.aabb = tree_.aabb;
+    tree_ = std::move(alone);
   }
 
   Hit closest_hit(const Ray& ray) const override {
@@ -123,7 +131,10 @@ class StickEngine final : public RayEngine {
 
   StickHit hit(const StickRay& ray, const CutRay& cut, std::int64_t stick) const {
     const Remainder left = cuts_ == nullptr ? Remainder::whole : cuts_->remainder_of_stick(stick);
-    if (left == Remainder::whole) return stick_hit(ray, sticks_.stored(spheres_, stick));
+    if (left == Remainder::whole) {
+      const Stick whole = sticks_.stored(spheres_, stick);
+      return by_vectors_ && surely_misses(ray.ray, whole) ? StickHit{} : stick_hit(ray, whole);
+    }
     if (left == Remainder::nothing) return {};
     const CutStickHit found = cuts_->stick_hit(cut, ray, stick);
     return {found.hit.t, found.s};
@@ -158,11 +169,30 @@ class StickEngine final : public RayEngine {
                                      spheres.images().number(image.first) * engine.sticks_.size()};
       ScaledRay in_tree = answer.ray.ray;
       in_tree.origin = in_tree.origin - spheres.scale() * spheres.images().shift(image.first);
-      NoObserver observer;
-      walk(engine.tree_, spheres, in_tree, of_image, observer, kPadOfSticks + kPadOfCopies);
+      engine.traverse_tree(in_tree, kPadOfSticks + kPadOfCopies, of_image);
       return of_image.ended;
     }
   };
+
+  // `ray` as the boxes see it.
+  template <class Answer>
+  void traverse_tree(const ScaledRay& ray, double pad, AnswerOfImage<Answer>& answer) const {
+    if (!by_vectors_) {
+      NoObserver observer;
+      return walk(tree_, spheres_, ray, answer, observer, pad);
+    }
+    struct Tests final : StickTests {
+      explicit Tests(AnswerOfImage<Answer>& of_ray) : StickTests(of_ray.limit()), answer(of_ray) {}
+      bool test(std::int64_t index) override {
+        if (answer.test(index)) return true;
+        limit = answer.limit();
+        return false;
+      }
+      AnswerOfImage<Answer>& answer;
+    };
+    Tests tests(answer);
+    traverse(wide_tree_, ray, pad, tests);
+  }
 
   template <class Answer>
   void traverse_sticks(const Ray& ray, Answer& answer) const {
@@ -174,9 +204,8 @@ class StickEngine final : public RayEngine {
       answer.ray = stick_ray(ray, spheres_, sticks_);
     }
     if (!spheres_.has_images()) {
-      NoObserver observer;
       AnswerOfImage<Answer> of_all{answer, &numbers_, 0};
-      walk(tree_, spheres_, answer.ray.ray, of_all, observer, kPadOfSticks);
+      traverse_tree(answer.ray.ray, kPadOfSticks, of_all);
       return;
     }
     EachImage<Answer> each{*this, answer};
@@ -216,7 +245,9 @@ class StickEngine final : public RayEngine {
   std::vector<std::int32_t> numbers_;  // of the sticks in the tree
   std::shared_ptr<const RayEngine> engine_of_spheres_;
   std::shared_ptr<const CutSet> cuts_;
-  Tree tree_;  // of the sticks' boxes
+  bool by_vectors_;
+  Tree tree_;  // of the sticks' boxes; with `wide_tree_` their common box alone
+  StickTree wide_tree_;
 };
 
 }  // namespace bihive

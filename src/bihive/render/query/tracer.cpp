@@ -101,7 +101,8 @@ Result<Tracer> Tracer::of_cavities(const Scene& scene, const EngineParameters& p
 Result<Tracer> Tracer::with_sticks(Tracer tracer, const StickSet& sticks, std::shared_ptr<const CutSet> cuts) {
   const Timer timer;
   try {
-    tracer.rays_ = std::make_shared<StickEngine>(*tracer.spheres_, sticks, std::move(tracer.rays_), std::move(cuts));
+    tracer.rays_ = std::make_shared<StickEngine>(*tracer.spheres_, sticks, std::move(tracer.rays_), std::move(cuts),
+                                                 is_of_vectors(tracer.engine_));
   } catch (const Cancelled&) {
     return cancelled_error();
   } catch (const std::bad_alloc&) {

@@ -111,7 +111,8 @@ Result<std::shared_ptr<const TransparentSpheres>> TransparentSpheres::divide(con
                                  : build_engine(spheres, std::move(bodies.spheres), more.cuts, parameters);
       if (!part || bodies.sticks.empty()) return part;
       return Result<std::shared_ptr<const RayEngine>>(
-          std::make_shared<StickEngine>(spheres, *more.sticks, std::move(bodies.sticks), std::move(*part), more.cuts));
+          std::make_shared<StickEngine>(spheres, *more.sticks, std::move(bodies.sticks), std::move(*part), more.cuts,
+                                        is_of_vectors(parameters.engine)));
     };
     Result<std::shared_ptr<const RayEngine>> part = built(std::move(opaque), {engine, {}, threads});
     if (!part) return part.error();

@@ -1,0 +1,60 @@
+// The tree of the sticks that the wide engine's rays meet: boxes, sixteen to a node, tested by vectors.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "bihive/bih/tree.h"
+#include "bihive/geometry/scaled_ray.h"
+#include "bihive/math/aabb.h"
+
+namespace bihive {
+
+constexpr int kStickWidth = 16;
+
+/// In stored units. The box of a slot without a child is one that no ray enters.
+struct alignas(64) StickNode {
+  float lo[3][kStickWidth], hi[3][kStickWidth];
+  std::int32_t child[kStickWidth];  ///< a node; below 0: ~child is the index of a stick
+};
+
+/// Immutable once built.
+class StickTree {
+ public:
+  StickTree() = default;
+  /// `tree`: build_reference_tree() of these boxes, of which there are fewer than 2^31. It is collapsed sixteen wide,
+  /// with a box of its own for every stick. std::bad_alloc: there is not enough memory.
+  StickTree(const std::vector<Aabb>& boxes, const Tree& tree);
+
+  /// nodes()[0] is the root; without sticks there is none.
+  const std::vector<StickNode>& nodes() const { return nodes_; }
+  /// From the root to the deepest node.
+  int levels() const { return levels_; }
+
+ private:
+  std::vector<StickNode> nodes_;
+  int levels_ = 0;
+};
+
+/// What a traversal asks about the sticks on a ray's way.
+class StickTests {
+ public:
+  StickTests(const StickTests&) = delete;
+  StickTests& operator=(const StickTests&) = delete;
+
+  /// The index of a stick. True ends the traversal; else `limit` may have become smaller.
+  virtual bool test(std::int64_t index) = 0;
+
+  double limit;  ///< sticks beyond this t do not matter
+
+ protected:
+  explicit StickTests(double limit_of_ray) : limit(limit_of_ray) {}
+  ~StickTests() = default;
+};
+
+/// Takes a valid ray, in the stored units of the boxes, to every stick whose box it may enter up to tests.limit, nearly
+/// from near to far. `more_pad` as for Slabs (bih/traversal.h).
+void traverse(const StickTree& tree, const ScaledRay& ray, double more_pad, StickTests& tests);
+
+}  // namespace bihive
