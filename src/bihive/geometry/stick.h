@@ -131,11 +131,12 @@ inline bool surely_misses(const ScaledRay& ray, const Stick& stick) {
   const Vec3d axis = stick.b - stick.a, oc = stick.a - ray.origin;
   const Vec3d normal = cross(ray.direction, axis);
   const double largest = std::max(stick.radius_a, stick.radius_b);
-  // Rounding: less than 2^-48 of these lengths, here and in stick_roots().
+  // Rounding: less than 2^-46 of these lengths, here and in stick_roots() (docs/precision.md, "Sticks").
   constexpr double kError = 0x1p-40;
   const double lengths = std::sqrt(ray.direction_squared * dot(axis, axis));
-  const double away = std::abs(oc.x) + std::abs(oc.y) + std::abs(oc.z);
-  return std::abs(dot(oc, normal)) > largest * std::sqrt(dot(normal, normal)) + kError * lengths * (away + largest);
+  const auto sum_of = [](Vec3d v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+  const double reach = sum_of(oc) + sum_of(axis) + largest;
+  return std::abs(dot(oc, normal)) > largest * std::sqrt(dot(normal, normal)) + kError * lengths * reach;
 }
 
 /// The outward normal, of length 1, at a root `t` of the ray and the stick: away from the centre of the ball whose
