@@ -12,9 +12,9 @@
 namespace bihive {
 namespace {
 
-constexpr std::uint64_t kMostCells = 1 << 21;  // along an axis, with one to spare at either end
+constexpr std::uint64_t kMostGridCells = 1 << 21;  // along an axis, with one to spare at either end
 constexpr std::int64_t kCellsOfChunk = 4096;   // for a thread at a time
-constexpr double kMostImages = 1 << 10;        // of a point
+constexpr double kMostImagesOfPoint = 1 << 10;        // of a point
 
 // The points in the cell of the lattice at the origin, and images of them beyond its sides.
 struct Spread {
@@ -55,7 +55,7 @@ Result<Spread> spread_out(const std::vector<Vec3d>& points, const std::vector<do
     if (!lattice->holds(points[static_cast<std::size_t>(spread.point[i])])) continue;
     // Counts that bring the cell near the point: the opposite ones bring the point near the cell.
     const Lattice::Range range = lattice->images_within(longest, at, {0, 0, 0}, {1, 1, 1}, largest);
-    if (range.count() > kMostImages)
+    if (range.count() > kMostImagesOfPoint)
       return Error{"the periodic cell is so small that a point is near more than 1,000 of its images", "", 0, 0,
                    "leave the cell out"};
     any_image(range, [&](const ImageCounts& against) {
@@ -81,13 +81,13 @@ class Grid {
         hi[axis] = std::max(hi[axis], one[axis]);
       }
     const double extent = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
-    const double side = std::max(longest, extent / static_cast<double>(kMostCells / 2));
+    const double side = std::max(longest, extent / static_cast<double>(kMostGridCells / 2));
     std::vector<std::pair<std::uint64_t, std::int32_t>> sorted;
     sorted.reserve(at.size());
     for (std::size_t i = 0; i < at.size(); ++i) {
       std::uint64_t cell = 0;
       for (int axis = 2; axis >= 0; --axis)
-        cell = cell * kMostCells + static_cast<std::uint64_t>((at[i][axis] - lo[axis]) / side) + 1;
+        cell = cell * kMostGridCells + static_cast<std::uint64_t>((at[i][axis] - lo[axis]) / side) + 1;
       sorted.emplace_back(cell, static_cast<std::int32_t>(i));
     }
     std::sort(sorted.begin(), sorted.end());
@@ -110,7 +110,7 @@ class Grid {
   void for_each_near_pair(std::int64_t first, std::int64_t end, const Use& use) const {
     // The neighbours that come after a cell: one along x, and four rows of three, which follow each other. As cells
     // ascend, so do the rows.
-    constexpr std::uint64_t kY = kMostCells, kZ = kMostCells * kMostCells;
+    constexpr std::uint64_t kY = kMostGridCells, kZ = kMostGridCells * kMostGridCells;
     constexpr std::uint64_t kRows[] = {kY, kZ - kY, kZ, kZ + kY};
     std::size_t row_begins[4];
     for (std::size_t row = 0; row < 4; ++row)

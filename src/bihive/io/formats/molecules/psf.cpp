@@ -14,7 +14,7 @@
 namespace bihive {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 class PsfReader {
  public:
@@ -88,9 +88,9 @@ class PsfReader {
     const auto [rest, fault] = std::from_chars(texts[1].data(), end, residue);
     has_insertions_ = has_insertions_ || (fault == std::errc() && rest != end);
     for (std::vector<double>* coordinates : {&spheres_.x, &spheres_.y, &spheres_.z}) coordinates->push_back(0);
-    residue_number_.values.push_back(fault == std::errc() ? double(residue) : kUnknown);
+    residue_number_.values.push_back(fault == std::errc() ? double(residue) : kNotANumber);
     insertions_.add(fault == std::errc() ? std::string_view(rest, static_cast<std::size_t>(end - rest)) : "");
-    serial_.values.push_back(serial ? double(*serial) : kUnknown);
+    serial_.values.push_back(serial ? double(*serial) : kNotANumber);
     charge_.values.push_back(*charge);
     mass_.values.push_back(*mass);
     segments_.add(texts[0]);
