@@ -68,8 +68,8 @@ BenchScene load_bench_scene(const BenchOptions& options) {
   if (!input.has_lights || scene.lights.empty()) scene.lights = {light_behind(scene.camera)};
   scene.lights.resize(1);
   const SphereSet::Bounds bounds = scene.spheres.bounds();
-  bench.random_lo = bounds.lo;
-  bench.random_hi = bounds.hi;
+  bench.random_lo = scene.spheres.to_local(bounds.lo);
+  bench.random_hi = scene.spheres.to_local(bounds.hi);
   return bench;
 }
 

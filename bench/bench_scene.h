@@ -10,7 +10,7 @@ namespace bihive::bench {
 
 struct BenchScene {
   Scene scene;  ///< one light
-  Vec3d random_lo, random_hi;
+  Vec3d random_lo, random_hi;  ///< local (geometry/sphere_set.h)
   std::string description;
 };
 

@@ -123,7 +123,7 @@ Next next_rays(const Scene& scene, const WideTree& tree, const PixelRaySet& from
     const std::uint32_t place = from.place[static_cast<std::size_t>(i)];
     next.mirrored.rays.push_back(reflected_ray(surface));
     next.mirrored.place.push_back(place);
-    const Vec3d to_light = scene.lights[0].position - to_double(surface.origin);
+    const Vec3d to_light = scene.spheres.to_local(scene.lights[0].position) - to_double(surface.origin);
     if (!(dot(surface.normal, to_light) > 0)) continue;
     Ray shadow;
     shadow.origin = surface.origin;

@@ -5,13 +5,14 @@ import sys
 
 SHOWN = 5
 FLOOR, SHARE = 1.3, 0.25  # times Embree's speed; of the median of all sets
+FEWEST = 4096  # rays: with fewer, calls and timers are measured
 
 
 def cliffs(results):
     """Sets and kinds of rays below a floor: (kind, set, Mray/s, ratio to Embree or None, share of the median), by share."""
     found = []
     for kind in results[0]["mray_per_s"]:
-        rates = {one["set"]: one["mray_per_s"][kind] for one in results if one["mray_per_s"].get(kind)}
+        rates = {one["set"]: one["mray_per_s"][kind] for one in results if one["mray_per_s"].get(kind) and one["rays"][kind] >= FEWEST}
         median = statistics.median(rates.values()) if rates else 0
         for one in results:
             if one["set"] not in rates:

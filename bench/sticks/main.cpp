@@ -124,7 +124,7 @@ std::vector<Ray> random_rays(const BenchScene& bench, std::int64_t count) {
     const double squared = dot(direction, direction);
     if (squared > 1 || squared < 1e-3) continue;
     Ray ray;
-    ray.origin = to_float(bench.scene.spheres.to_local(origin));
+    ray.origin = to_float(origin);
     ray.direction = to_float(normalized(direction));
     rays.push_back(ray);
   }

@@ -74,6 +74,30 @@ TEST(Origin, IsZeroWhereRoundingAboutZeroIsHarmless) {
   EXPECT_FALSE(built_in_scene("demo", {}, {}).value().scene.spheres.has_origin());
 }
 
+// Numbers that binary32 holds exactly, of spheres that are small beside their distance from 0.
+TEST(Origin, FitsSetsThatAreFarAwayForTheirSize) {
+  const auto grid = [](double at, double radius) {
+    Columns made;
+    for (int k = 0; k < 64; ++k) {
+      made.x.push_back(at + k % 4);
+      made.y.push_back(k / 4 % 4);
+      made.z.push_back(k / 16);
+      made.r.push_back(radius);
+    }
+    return made;
+  };
+  EXPECT_TRUE(grid(0x1p17, 0.25).set().has_origin());
+  EXPECT_FALSE(grid(0x1p17, 0.25).set(SphereSet::Origin::zero).has_origin());
+  EXPECT_FALSE(grid(0x1p11, 0.25).set().has_origin()) << "a radius of 2^-14 stored units";
+  EXPECT_FALSE(grid(0, 0x1p-20).set().has_origin()) << "small spheres around 0";
+  Columns wide = grid(0x1p17, 0.25);
+  wide.x.push_back(0);
+  wide.y.push_back(0);
+  wide.z.push_back(0);
+  wide.r.push_back(0.25);
+  EXPECT_FALSE(wide.set().has_origin()) << "of which 0 is a part";
+}
+
 TEST(Origin, HasFewBitsSoThatTheDifferenceIsExact) {
   for (const Vec3d at : {kUtm, Vec3d{1e9, -1e9, 3e9}, Vec3d{0, 0, 1e8}, Vec3d{1e5, 0, 0}}) {
     const Columns world = helix(at);

@@ -112,14 +112,16 @@ int scale_exponent_for(double extent) {
 
 template <class Coordinates, class Radii>
 bool SphereSet::is_coarse(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                          double extent) {
-  const double scale = std::ldexp(1.0, scale_exponent_for(extent));
+                          const WorldEnds& ends) {
+  const double scale = std::ldexp(1.0, scale_exponent_for(ends.extent()));
+  const bool is_far = kFarExtents * ends.extent(ends.origin()) <= ends.extent();
   const auto rounding = [scale](double world) {
     const double stored = world * scale;
     return double(static_cast<float>(stored)) - stored;
   };
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!(double(r[i]) > 0)) continue;
+    if (is_far && double(r[i]) * scale < kFineRadius) return true;
     const Vec3d moved{rounding(double(x[i])), rounding(double(y[i])), rounding(double(z[i]))};
     const double harmless = kHarmlessShift * double(r[i]) * scale;
     if (dot(moved, moved) > harmless * harmless) return true;
@@ -172,7 +174,7 @@ Result<SphereSet> SphereSet::make(const Coordinates& x, const Coordinates& y, co
                                   Origin origin) {
   const Result<WorldEnds> ends = ends_of(x, y, z, r, 0);
   if (!ends) return ends.error();
-  const bool coarse = origin == Origin::fitting && is_coarse(x, y, z, r, ends->extent());
+  const bool coarse = origin == Origin::fitting && is_coarse(x, y, z, r, *ends);
   return make_about(x, y, z, r, *ends, coarse ? ends->origin() : Vec3d{});
 }
 
@@ -201,8 +203,9 @@ Result<WorldEnds> SphereSet::ends_of_world(const std::vector<double>& x, const s
 }
 
 bool SphereSet::is_coarse_about_zero(const std::vector<double>& x, const std::vector<double>& y,
-                                     const std::vector<double>& z, const std::vector<double>& r, double extent) {
-  return is_coarse(x, y, z, r, extent);
+                                     const std::vector<double>& z, const std::vector<double>& r,
+                                     const WorldEnds& ends) {
+  return is_coarse(x, y, z, r, ends);
 }
 
 Result<SphereSet> SphereSet::from_world(const std::vector<float>& x, const std::vector<float>& y,

@@ -76,10 +76,12 @@ class SphereSet {
  public:
   SphereSet() = default;
 
-  /// The origin of a set made from world units: 0, or WorldEnds::origin() if rounding about 0 would move some centre by
-  /// more than kHarmlessShift of its radius.
+  /// The origin of a set made from world units: 0, or WorldEnds::origin() where units about 0 are coarse: rounding would
+  /// move some centre by more than kHarmlessShift of its radius; or the set lies kFarExtents of its own extents away or
+  /// more, so that some radius would be below kFineRadius stored units, which the filters of queries cannot tell from 0
+  /// although binary32 may hold every number of the set.
   enum class Origin { zero, fitting };
-  static constexpr double kHarmlessShift = 0.01;
+  static constexpr double kHarmlessShift = 0.01, kFarExtents = 8, kFineRadius = 0x1p-14;
 
   /// A set of these spheres in these units, without images: a subset of a larger set, which defines the units. Every
   /// bound must lie in [-1, 1].
@@ -110,10 +112,9 @@ class SphereSet {
   static Result<WorldEnds> ends_of_world(const std::vector<double>& x, const std::vector<double>& y,
                                          const std::vector<double>& z, const std::vector<double>& r,
                                          std::int64_t first_id);
-  /// Whether rounding about 0, in the units of a set with this extent, moves some centre by more than kHarmlessShift of
-  /// its radius.
+  /// Whether the units about 0 of a whole set with these ends are coarse for some of these spheres, as Origin says.
   static bool is_coarse_about_zero(const std::vector<double>& x, const std::vector<double>& y,
-                                   const std::vector<double>& z, const std::vector<double>& r, double extent);
+                                   const std::vector<double>& z, const std::vector<double>& r, const WorldEnds& ends);
   /// The same from numbers in place. x, y and z must have the same precision.
   static Result<SphereSet> from_world(const NumbersView& x, const NumbersView& y, const NumbersView& z,
                                       const NumbersView& r, Origin origin = Origin::zero);
@@ -216,7 +217,7 @@ class SphereSet {
                                    std::int64_t first_id);
   template <class Coordinates, class Radii>
   static bool is_coarse(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
-                        double extent);
+                        const WorldEnds& ends);
   template <class Coordinates, class Radii>
   static Result<SphereSet> make(const Coordinates& x, const Coordinates& y, const Coordinates& z, const Radii& r,
                                 Origin origin = Origin::zero);

@@ -129,7 +129,7 @@ Result<ReadChunk> read_chunk(const std::string& path, const ReadOptions& options
   const Result<WorldEnds> own = steps.ends();
   if (!own) return own.error();
   const WorldEnds ends = ends_of_whole(*own, ranks);
-  const bool coarse = ranks.all_reduce_max(steps.is_coarse_about_zero(ends.extent()) ? 1 : 0) > 0;
+  const bool coarse = ranks.all_reduce_max(steps.is_coarse_about_zero(ends) ? 1 : 0) > 0;
   const Result<RoundingLoss> loss = steps.round(ends, coarse ? ends.origin() : Vec3d{});
   if (!loss) return loss.error();
   ReadChunk chunk;

@@ -147,8 +147,8 @@ Result<WorldEnds> SphereFinisher::ends() const {
   return ends;
 }
 
-bool SphereFinisher::is_coarse_about_zero(double extent_of_whole) const {
-  return SphereSet::is_coarse_about_zero(raw_.x, raw_.y, raw_.z, raw_.r, extent_of_whole);
+bool SphereFinisher::is_coarse_about_zero(const WorldEnds& ends_of_whole) const {
+  return SphereSet::is_coarse_about_zero(raw_.x, raw_.y, raw_.z, raw_.r, ends_of_whole);
 }
 
 Result<RoundingLoss> SphereFinisher::round(const WorldEnds& ends_of_whole, Vec3d origin) {
@@ -213,7 +213,7 @@ Result<SphereFile> finish_spheres(RawSpheres raw, const std::string& name, const
   const Result<WorldEnds> ends = steps.ends();
   if (!ends) return ends.error();
   Vec3d origin;
-  if (steps.is_coarse_about_zero(ends->extent())) {
+  if (steps.is_coarse_about_zero(*ends)) {
     origin = ends->origin();
     const Vec3d first = origin_of_first_frame ? origin_of_first_frame() : Vec3d{};
     if (first != Vec3d{} && ends->extent(first) <= kMostOfOwnExtent * ends->extent(origin)) origin = first;

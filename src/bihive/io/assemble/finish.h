@@ -43,7 +43,7 @@ class SphereFinisher {
   std::array<double, 6> centre_ends() const;
   void recenter(const std::array<double, 6>& ends_of_whole);
   Result<WorldEnds> ends() const;
-  bool is_coarse_about_zero(double extent_of_whole) const;
+  bool is_coarse_about_zero(const WorldEnds& ends_of_whole) const;
   /// `ends_of_whole`: the maximum of ends() of all chunks. `origin`: theirs if some chunk is coarse about 0, else 0.
   /// Returns the chunk's loss.
   Result<RoundingLoss> round(const WorldEnds& ends_of_whole, Vec3d origin);

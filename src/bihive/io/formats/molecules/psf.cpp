@@ -106,6 +106,7 @@ class PsfReader {
   Status read_bonds() {
     const Result<std::int64_t> count = take_count(scanner_, "the number of bonds");
     if (!count) return count.error();
+    if (*count > 0) scanner_.next_filled_line();
     for (std::int64_t i = 0; i < *count; ++i) {
       std::optional<std::int64_t> ends[2];
       for (std::optional<std::int64_t>& end : ends) {
