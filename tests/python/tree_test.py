@@ -42,7 +42,7 @@ class Tuned(unittest.TestCase):
 
     def test_nothing_to_search(self):
         spheres = bh.Spheres([[0.0, 0, 0]], radius=1)
-        with self.assertRaisesRegex(bh.UsageError, "tune searches max_prims"):
+        with self.assertRaisesRegex(bh.UsageError, "tune excludes max_prims"):
             bh.Tree(spheres, tune=True, max_prims=4)
         with self.assertRaisesRegex(bh.UsageError, "tune needs a tree"):
             bh.Tree(spheres, tune=True, engine="brute")
