@@ -9,7 +9,7 @@
 namespace bihive::bench {
 
 struct BenchScene {
-  Scene scene;  ///< one light
+  Scene scene;                 ///< one light
   Vec3d random_lo, random_hi;  ///< local (geometry/sphere_set.h)
   std::string description;
 };

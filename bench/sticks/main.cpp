@@ -242,9 +242,15 @@ ordered_json measure(const Scene& scene, const Tracer& tracer, const EmbreeBodie
   }
   const auto mray = [count](std::vector<double>& ms) { return static_cast<double>(count) / median(ms) / 1000; };
   const double rate = mray(ours), peer_rate = mray(theirs);
-  return {{"rays", count},       {"mray_per_s", rate},      {"embree_mray_per_s", peer_rate},
-          {"ratio", rate / peer_rate}, {"embree_width", best.width}, {"embree_coherent", best.coherent},
-          {"hits", found},       {"on_sticks", on_sticks},  {"hit_by_one_alone", different}};
+  return {{"rays", count},
+          {"mray_per_s", rate},
+          {"embree_mray_per_s", peer_rate},
+          {"ratio", rate / peer_rate},
+          {"embree_width", best.width},
+          {"embree_coherent", best.coherent},
+          {"hits", found},
+          {"on_sticks", on_sticks},
+          {"hit_by_one_alone", different}};
 }
 
 int run(const std::vector<std::string>& words) {

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "bihive/io/bonds.h"
 #include "bihive/io/read_spheres.h"
 #include "bihive/math/rng.h"
-#include "bihive/io/bonds.h"
 #include "bihive/scene/pair_line.h"
 
 namespace bihive {

@@ -101,8 +101,7 @@ TEST(Psf, a_trajectory_gives_the_coordinates) {
     options.frame = frame;
     const Result<SphereFile> file = read_spheres(path, options);
     ReadOptions of_gro = options;
-    const Result<SphereFile> same =
-        read_spheres(BIHIVE_SOURCE_DIR "/tests/data/io/trajectories/water.gro", of_gro);
+    const Result<SphereFile> same = read_spheres(BIHIVE_SOURCE_DIR "/tests/data/io/trajectories/water.gro", of_gro);
     ASSERT_TRUE(file && same) << (file ? same : file).error().to_string();
     ASSERT_EQ(file->spheres.size(), 30);
     EXPECT_EQ(file->frames, 3);

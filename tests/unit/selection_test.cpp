@@ -249,7 +249,8 @@ TEST(Selection, BondsJoinSpheres) {
 }
 
 TEST(Selection, BondsOfAFileCountAndBondsCrossACell) {
-  const std::string in_cell = "2\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3\nC 0.5 5 5\nC 9.2 5 5\n";
+  const std::string in_cell =
+      "2\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3\nC 0.5 5 5\nC 9.2 5 5\n";
   const SphereSet spheres = test::read_text(in_cell, "cell.xyz", with_radius_one()).spheres;
   EXPECT_EQ(ids_in(spheres, "bonded to index 0"), (Ids{1}));
   EXPECT_TRUE(sees_images(spheres, "bonded to index 0"));

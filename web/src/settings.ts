@@ -22,6 +22,7 @@ export interface PictureSettings {
   arrows: string;
   arrow_select: string;
   arrow_scale: number;
+  arrow_share: number;
   arrow_radius: number | null;
   arrow_pivot: 'tail' | 'middle';
   arrow_colour: string;

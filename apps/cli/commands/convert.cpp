@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bihive/io/bonds.h"
 #include "bihive/io/write_spheres.h"
 #include "bihive/job/failure.h"
 #include "bihive/job/messages.h"
 #include "bihive/job/selection.h"
-#include "bihive/io/bonds.h"
 #include "bihive/scene/camera_lights.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/looks.h"

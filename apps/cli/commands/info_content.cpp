@@ -5,9 +5,9 @@
 #include <set>
 #include <string_view>
 
+#include "bihive/io/bonds.h"
 #include "bihive/io/column_choice.h"
 #include "bihive/io/residue_runs.h"
-#include "bihive/io/bonds.h"
 #include "bihive/select/selection.h"
 
 namespace bihive::cli {

@@ -76,6 +76,7 @@ class RenderOptions(ReadOptions, total=False):
     arrows: Optional[Union[str, npt.ArrayLike]]  # Draw an arrow on each sphere, along the vector that these attributes are; arithmetic too: fx/m,fy/m,fz/m
     arrow_select: Optional[str]  # The spheres that have arrows (all)
     arrow_scale: Optional[float]  # Length of an arrow in world units, for a vector of length 1 (1)
+    arrow_share: Optional[float]  # Length of the longest arrow as a share of the set's longest side, in place of the scale; 0: by the scale (0)
     arrow_radius: Optional[float]  # Radius of the shafts of arrows in world units (a quarter of the sphere's)
     arrow_pivot: Optional[Literal["tail", "middle"]]  # The point of an arrow that is at the centre of its sphere (tail)
     arrow_colour: Optional[Union[Colour, str]]  # Colour of arrows, or an attribute that colours them, with a map and a range (the sphere's)

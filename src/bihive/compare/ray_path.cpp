@@ -16,7 +16,8 @@ Result<std::vector<StructurePath>> paths_of_ray(const SphereSet& spheres, const 
   for (const StructureRow& row : rows) {
     const Result<StructurePointer> structure = row.build(spheres, {}, threads);
     if (!structure) return structure.error();
-    paths.push_back({row.name, (*structure)->path_of_ray(ray, /*any_hit=*/false), (*structure)->work_of_ray(ray, false)});
+    paths.push_back(
+        {row.name, (*structure)->path_of_ray(ray, /*any_hit=*/false), (*structure)->work_of_ray(ray, false)});
   }
   return paths;
 }

@@ -42,9 +42,9 @@ using RayPath = std::vector<PathStep>;
 /// The nodes of a tree on one level. A line is a random one through the structure's box, which it meets with a
 /// probability proportional to their surfaces.
 struct LevelFacts {
-  std::int64_t nodes = 0;      ///< leaves included
+  std::int64_t nodes = 0;  ///< leaves included
   std::int64_t leaves = 0;
-  std::int64_t references = 0;  ///< spheres that the nodes list
+  std::int64_t references = 0;                      ///< spheres that the nodes list
   double expected_nodes = 0, expected_spheres = 0;  ///< of the level, along a line; NaN where the box has no surface
   /// Of its inner nodes, NaN where there is none: how many children a line enters that enters the node (below 1 there
   /// are gaps between them), and the surface that children share, pair by pair, per surface of their node (above 0 they

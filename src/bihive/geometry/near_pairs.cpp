@@ -13,8 +13,8 @@ namespace bihive {
 namespace {
 
 constexpr std::uint64_t kMostGridCells = 1 << 21;  // along an axis, with one to spare at either end
-constexpr std::int64_t kCellsOfChunk = 4096;   // for a thread at a time
-constexpr double kMostImagesOfPoint = 1 << 10;        // of a point
+constexpr std::int64_t kCellsOfChunk = 4096;       // for a thread at a time
+constexpr double kMostImagesOfPoint = 1 << 10;     // of a point
 
 // The points in the cell of the lattice at the origin, and images of them beyond its sides.
 struct Spread {

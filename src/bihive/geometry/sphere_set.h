@@ -76,10 +76,10 @@ class SphereSet {
  public:
   SphereSet() = default;
 
-  /// The origin of a set made from world units: 0, or WorldEnds::origin() where units about 0 are coarse: rounding would
-  /// move some centre by more than kHarmlessShift of its radius; or the set lies kFarExtents of its own extents away or
-  /// more, so that some radius would be below kFineRadius stored units, which the filters of queries cannot tell from 0
-  /// although binary32 may hold every number of the set.
+  /// The origin of a set made from world units: 0, or WorldEnds::origin() where units about 0 are coarse: rounding
+  /// would move some centre by more than kHarmlessShift of its radius; or the set lies kFarExtents of its own extents
+  /// away or more, so that some radius would be below kFineRadius stored units, which the filters of queries cannot
+  /// tell from 0 although binary32 may hold every number of the set.
   enum class Origin { zero, fitting };
   static constexpr double kHarmlessShift = 0.01, kFarExtents = 8, kFineRadius = 0x1p-14;
 

@@ -12,7 +12,8 @@ int atomic_number(std::string_view symbol);
 /// "C", "Cl"; empty if the number is not 1 to 118.
 std::string element_symbol(int atomic_number);
 
-/// The atomic number of the element whose atomic weight, from gemmi's table, differs from this mass by at most 0.05, or 0.
+/// The atomic number of the element whose atomic weight, from gemmi's table, differs from this mass by at most 0.05, or
+/// 0.
 int element_of_mass(double mass);
 
 /// Van der Waals radius in Angstrom, from gemmi's table; 0 if the number is not 1 to 118.

@@ -160,23 +160,19 @@ ChosenSticks choose_sticks(const PictureRequest& request, const Scene& scene, co
   refuse_distributed(whole, has_bonds, "bonds", " are not found between", "add " + setting_name("bonds") + " none");
 
   const HydrogenBonds& hydrogen_bonds = picture.hydrogen_bonds;
-  refuse_settings(request, hydrogen_bonds.any(), {"hbond_"}, "hydrogen bonds",
-                  "add " + setting_name("hbonds"));
+  refuse_settings(request, hydrogen_bonds.any(), {"hbond_"}, "hydrogen bonds", "add " + setting_name("hbonds"));
   refuse_distributed(whole, hydrogen_bonds.any(), "hbonds", " are not found between");
 
   const Arrows& arrows = picture.arrows;
-  refuse_settings(request, arrows.any(), {"arrow_"},
-                  "arrows", "add " + setting_name("arrows") + " VX,VY,VZ");
+  refuse_settings(request, arrows.any(), {"arrow_"}, "arrows", "add " + setting_name("arrows") + " VX,VY,VZ");
   refuse_distributed(whole, arrows.any(), "arrows", " are not drawn on");
 
   const Traces& traces = picture.traces;
-  refuse_settings(request, traces.any(), {"trace_"}, "tubes",
-                  "add " + setting_name("trace") + " chain");
+  refuse_settings(request, traces.any(), {"trace_"}, "tubes", "add " + setting_name("trace") + " chain");
   refuse_distributed(whole, traces.any(), "trace", ": no tubes are drawn through");
 
   const Trails& trails = picture.trails;
-  refuse_settings(request, trails.any(), {"trail_"}, "trails",
-                  "add " + setting_name("trail") + " N");
+  refuse_settings(request, trails.any(), {"trail_"}, "trails", "add " + setting_name("trail") + " N");
   refuse_distributed(whole, trails.any(), "trail", ": no trails are drawn behind");
 
   check_links(request.links);

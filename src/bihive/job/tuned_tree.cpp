@@ -61,8 +61,7 @@ TunedTree tuned_tree(const Scene& scene, RenderEngine engine, const RenderSettin
   return tuned(scene, structure_of(engine), std::move(kinds), settings.threads, progress);
 }
 
-TunedTree tuned_tree_for_rays(const SphereSet& spheres, Engine engine, int threads,
-                              const ProgressCallback& progress) {
+TunedTree tuned_tree_for_rays(const SphereSet& spheres, Engine engine, int threads, const ProgressCallback& progress) {
   Scene scene;
   scene.spheres = spheres;
   workbench::complete_for_queries(scene, /*has_camera=*/false, /*has_lights=*/false);

@@ -42,8 +42,7 @@ Result<Components> components_of(const SphereSet& spheres, const std::string& te
 
 Vec3d vector_at(const Components& components, const SphereSet& spheres, std::int64_t id) {
   Vec3d vector;
-  for (int axis = 0; axis < 3; ++axis)
-    vector[axis] = components[static_cast<std::size_t>(axis)].number_of(spheres, id);
+  for (int axis = 0; axis < 3; ++axis) vector[axis] = components[static_cast<std::size_t>(axis)].number_of(spheres, id);
   return vector;
 }
 
@@ -97,8 +96,7 @@ Result<AddedArrows> add_arrows(Scene& scene, const Arrows& arrows) {
 
   AddedArrows added;
   std::vector<OwnStick> sticks;
-  const double scale =
-      arrows.share > 0 ? scale_by_share(*components, spheres, mask, arrows.share) : arrows.scale;
+  const double scale = arrows.share > 0 ? scale_by_share(*components, spheres, mask, arrows.share) : arrows.scale;
   for (std::int64_t id = 0; id < spheres.size(); ++id) {
     const auto i = static_cast<std::size_t>(id);
     if (mask[i] == 0) continue;

@@ -9,8 +9,8 @@
 
 #include "bihive/base/memory.h"
 #include "bihive/base/watch.h"
-#include "bihive/io/bonds.h"
 #include "bihive/geometry/near_pairs.h"
+#include "bihive/io/bonds.h"
 #include "bihive/scene/pair_line.h"
 #include "bihive/scene/stick_colours.h"
 #include "bihive/select/residues.h"

@@ -70,7 +70,8 @@ bool any_holds(const std::vector<NumberRange>& ranges, double number) {
 // The other ends of each sphere's bonds.
 class BondedSpheres {
  public:
-  BondedSpheres(const std::vector<ImagePair>& bonds, std::size_t spheres) : begin_(spheres + 1), other_(2 * bonds.size()) {
+  BondedSpheres(const std::vector<ImagePair>& bonds, std::size_t spheres)
+      : begin_(spheres + 1), other_(2 * bonds.size()) {
     for (const ImagePair& bond : bonds)
       for (const std::int32_t end : bond.pair) ++begin_[static_cast<std::size_t>(end) + 1];
     for (std::size_t i = 0; i < spheres; ++i) begin_[i + 1] += begin_[i];

@@ -35,16 +35,16 @@ enum class ComparisonSign { less, at_most, more, at_least, equal, unequal };
 
 struct Expression {
   enum class Kind {
-    word,         ///< `name` alone: all, water ...
-    values,       ///< `name` with `values`
-    comparison,   ///< `terms` with a sign between each two
-    within,       ///< at most `distance` from a sphere of the operand
-    within_bonds, ///< at most `distance` bonds from a sphere of the operand
-    bonded,       ///< to a sphere of the operand
-    same,         ///< those whose `name` (an attribute, or "residue") some sphere of the operand has too
-    negation,     ///< of the operand
-    conjunction,  ///< all operands
-    disjunction   ///< any operand
+    word,          ///< `name` alone: all, water ...
+    values,        ///< `name` with `values`
+    comparison,    ///< `terms` with a sign between each two
+    within,        ///< at most `distance` from a sphere of the operand
+    within_bonds,  ///< at most `distance` bonds from a sphere of the operand
+    bonded,        ///< to a sphere of the operand
+    same,          ///< those whose `name` (an attribute, or "residue") some sphere of the operand has too
+    negation,      ///< of the operand
+    conjunction,   ///< all operands
+    disjunction    ///< any operand
   };
   Kind kind = Kind::word;
   TextPlace place = 0;

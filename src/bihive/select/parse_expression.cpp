@@ -117,12 +117,12 @@ struct whole : seq<gap, disjunction, end_of_text> {};
 struct whole_sum : seq<gap, sum, end_of_text> {};
 
 template <class Rule>
-using selector =
-    parse_tree::selector<Rule, parse_tree::store_content::on<
-                                   not_sign, bonds_prefix, within_prefix, bonded_prefix, same_prefix, byres_prefix,
-                                   distance, function_name, function, exponent_factor, power, quoted, plain_name, number, minus_sign, times_sign,
-                                   plus_sign, factor, product, sum, comparison_sign, comparison, range_value,
-                                   number_value, signed_digits, plain_value, test, operand, conjunction, disjunction>>;
+using selector = parse_tree::selector<
+    Rule, parse_tree::store_content::on<not_sign, bonds_prefix, within_prefix, bonded_prefix, same_prefix, byres_prefix,
+                                        distance, function_name, function, exponent_factor, power, quoted, plain_name,
+                                        number, minus_sign, times_sign, plus_sign, factor, product, sum,
+                                        comparison_sign, comparison, range_value, number_value, signed_digits,
+                                        plain_value, test, operand, conjunction, disjunction>>;
 }  // namespace grammar
 // NOLINTEND(readability-identifier-naming)
 
@@ -401,8 +401,7 @@ Expression operand_of(const ParseNode& node) {
     outer.place = place_of(prefix);
     outer.kind = Expression::Kind::negation;
     if (prefix.is_type<grammar::within_prefix>() || prefix.is_type<grammar::bonds_prefix>()) {
-      outer.kind =
-          prefix.is_type<grammar::within_prefix>() ? Expression::Kind::within : Expression::Kind::within_bonds;
+      outer.kind = prefix.is_type<grammar::within_prefix>() ? Expression::Kind::within : Expression::Kind::within_bonds;
       outer.distance = number_of(*prefix.children.front());
     } else if (prefix.is_type<grammar::bonded_prefix>()) {
       outer.kind = Expression::Kind::bonded;
@@ -428,7 +427,8 @@ Expression expression_of(const ParseNode& node) {
   return made;
 }
 
-// The place of the 'within', 'bonded', 'same' or 'byres' beyond the most that a selection may have; text.size() if there is none.
+// The place of the 'within', 'bonded', 'same' or 'byres' beyond the most that a selection may have; text.size() if
+// there is none.
 TextPlace too_many_prefixes(const ParseNode& node, int& left, std::size_t none) {
   const bool counts = node.is_type<grammar::within_prefix>() || node.is_type<grammar::bonds_prefix>() ||
                       node.is_type<grammar::bonded_prefix>() || node.is_type<grammar::same_prefix>() ||
@@ -491,9 +491,9 @@ Result<Expression> parse_expression(std::string_view text) {
   return parse_text<grammar::whole>(text, [text](const ParseNode& whole) -> Result<Expression> {
     int prefixes_left = kDeepestSelection;
     if (const TextPlace place = too_many_prefixes(whole, prefixes_left, text.size()); place != text.size())
-      return selection_error(
-          text, place,
-          "a selection has at most " + std::to_string(kDeepestSelection) + " times 'within', 'bonded', 'same' or 'byres'");
+      return selection_error(text, place,
+                             "a selection has at most " + std::to_string(kDeepestSelection) +
+                                 " times 'within', 'bonded', 'same' or 'byres'");
     return expression_of(whole);
   });
 }

@@ -13,8 +13,9 @@
 
 namespace bihive {
 
-/// One byte for each sphere: 1 if the expression selects it, 0 if not. Lengths are in world units; bonds are automatic_bonds() of io/bonds.h. The work is at most
-/// O(n log n) for each part of the expression. Distances know the images of a periodic cell (geometry/lattice.h).
+/// One byte for each sphere: 1 if the expression selects it, 0 if not. Lengths are in world units; bonds are
+/// automatic_bonds() of io/bonds.h. The work is at most O(n log n) for each part of the expression. Distances know the
+/// images of a periodic cell (geometry/lattice.h).
 ///
 /// An error has line and column in the expression, counted from 1 in characters; its message says what was expected or
 /// which name is unknown, and its hint what there is. caret_lines() shows the place.

@@ -63,8 +63,8 @@ Result<SphereFile> SphereFrames::begin(Result<OpenedFrames> opened, std::int64_t
     Result<std::shared_ptr<const Trajectory>> trajectory = open_trajectory(options_.trajectory);
     if (!trajectory) return trajectory.error();
     trajectory_ = std::move(*trajectory);
-    // A radius that is a guess is the file's own, so that it is the same in each frame; without coordinates in the file,
-    // that of the first frame.
+    // A radius that is a guess is the file's own, so that it is the same in each frame; without coordinates in the
+    // file, that of the first frame.
     if (!options_.radius && lacks_radii(atoms_)) {
       RawSpheres placed = atoms_;
       if (!atoms_.has_positions)

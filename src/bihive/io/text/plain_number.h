@@ -24,7 +24,8 @@ inline std::int64_t take_digits(const char*& at, const char* end, std::uint64_t&
     bytes <<= 8 * (8 - count);
     bytes = 10 * bytes + (bytes >> 8);
     constexpr std::uint64_t kPairs = 0x000000FF000000FF;
-    const std::uint64_t value = ((bytes & kPairs) * 0x000F424000000064 + ((bytes >> 16) & kPairs) * 0x0000271000000001) >> 32;
+    const std::uint64_t value =
+        ((bytes & kPairs) * 0x000F424000000064 + ((bytes >> 16) & kPairs) * 0x0000271000000001) >> 32;
     digits = digits * kPowers[count] + value;
     at += count;
     if (count < 8) return at - first;

@@ -37,9 +37,8 @@ void traverse_on_target(const StickTree& tree, const ScaledRay& ray, double more
   if (tree.nodes().empty()) return;
   const double farthest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)}) + 2.0;
   const double pad = 0x1p-24 + 0x1p-46 * farthest + more_pad;
-  const SlabOfRay slabs[3] = {{ray.origin.x, ray.direction.x, pad},
-                              {ray.origin.y, ray.direction.y, pad},
-                              {ray.origin.z, ray.direction.z, pad}};
+  const SlabOfRay slabs[3] = {
+      {ray.origin.x, ray.direction.x, pad}, {ray.origin.y, ray.direction.y, pad}, {ray.origin.z, ray.direction.z, pad}};
 
   // Each level leaves at most fifteen children waiting. Deep trees are rare.
   constexpr int kFewLevels = 48;
