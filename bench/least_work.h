@@ -1,5 +1,5 @@
 // The least work of an exact engine that tests each ray by itself against the tree, sixteen boxes or spheres at a time:
-// a bound for the rates of bihive-bench. Beams share tests among rays, and have no such bound.
+// a bound for the rates of bihive-bench. Beams share tests among rays, so they may exceed it.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +25,9 @@ struct LeastWork {
   double cycles(int lanes) const;
 };
 
-/// Whether the rays of a kind have little in common, so that beams do not take them.
+/// Beams take primary rays whole.
 constexpr bool has_bound(Kind kind) {
-  return kind == Kind::random || kind == Kind::mirror1 || kind == Kind::mirror2 || kind == Kind::mirror3 ||
-         kind == Kind::ao_random || kind == Kind::comb;
+  return kind != Kind::primary;
 }
 
 LeastWork least_work(const WideTree& tree, const RaySet& set);
