@@ -70,7 +70,7 @@ class Bodies(unittest.TestCase):
         np.testing.assert_array_equal(first.id[beside], i[beside])
 
     def test_all_hits_are_those_of_each_body_alone(self):
-        far = bh.Spheres([[500.0, 0, 0]], radius=0.001)
+        far = bh.Spheres([[500.0, 0, 0], [-500.0, 0, 0]], radius=0.001)  # around 0: one alone has an origin of its own there
         tree = bh.BodyTree(self.spheres, self.sticks)
         hits = tree.all_hits(self.origins, self.directions)
         self.assertIsInstance(hits, bh.AllBodyHits)
