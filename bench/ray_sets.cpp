@@ -125,12 +125,8 @@ Next next_rays(const Scene& scene, const WideTree& tree, const PixelRaySet& from
     next.mirrored.place.push_back(place);
     const Vec3d to_light = scene.spheres.to_local(scene.lights[0].position) - to_double(surface.origin);
     if (!(dot(surface.normal, to_light) > 0)) continue;
-    Ray shadow;
-    shadow.origin = surface.origin;
-    shadow.direction = to_float(to_light);
+    Ray shadow = ray_from(surface, to_light, surface.from_inside);
     shadow.t_max = 1;
-    shadow.leaves = surface.id;
-    shadow.inside = surface.from_inside;
     next.shadow.rays.push_back(shadow);
     next.shadow.place.push_back(place);
   }
@@ -182,12 +178,8 @@ PixelRaySet ambient_rays(const Scene& scene, const WideTree& tree, const PixelRa
       const Vec3d direction = shared ? to_double(sets.of_sample(0)[static_cast<std::size_t>(k)])
                                      : direction_by_cosine(surface.normal, random);
       if (!(dot(surface.normal, direction) > 0)) continue;
-      Ray ray;
-      ray.origin = surface.origin;
-      ray.direction = to_float(direction);
+      Ray ray = ray_from(surface, direction, surface.from_inside);
       if (distance) ray.t_max = *distance;
-      ray.leaves = surface.id;
-      ray.inside = surface.from_inside;
       set.rays.push_back(ray);
       set.place.push_back(passed + places[i]);
     }

@@ -148,25 +148,17 @@ std::vector<Set> sets_of(const BenchScene& bench, const Tracer& tracer, std::int
   for (const Ray& ray : sets[0].rays)
     if (const Hit hit = tracer.closest_hit(ray); hit.found())
       surfaces.push_back(surface_at(scene, ray, {hit.t, hit.sphere_id}));
-  const auto leaving = [](const Surface& surface, Vec3d direction) {
-    Ray ray;
-    ray.origin = surface.origin;
-    ray.direction = to_float(direction);
-    ray.leaves = surface.id;
-    ray.inside = surface.from_inside;
-    return ray;
-  };
   for (const Surface& surface : surfaces) {
     const Vec3d to_light = scene.spheres.to_local(scene.lights[0].position) - to_double(surface.origin);
     if (!(dot(surface.normal, to_light) > 0)) continue;
-    shadow.rays.push_back(leaving(surface, to_light));
+    shadow.rays.push_back(ray_from(surface, to_light, surface.from_inside));
     shadow.rays.back().t_max = 1;
   }
   const DirectionSets directions(64, 1);
   for (std::size_t k = 0; k < 64; k += 8)
     for (const Surface& surface : surfaces)
       if (const Vec3d direction = to_double(directions.of_sample(0)[k]); dot(surface.normal, direction) > 0)
-        ambient.rays.push_back(leaving(surface, direction));
+        ambient.rays.push_back(ray_from(surface, direction, surface.from_inside));
   sets.push_back(std::move(shadow));
   sets.push_back(std::move(ambient));
   return sets;

@@ -82,23 +82,13 @@ std::vector<Surface> surfaces_of(const Scene& scene, const RayBatch& primary, co
   return surfaces;
 }
 
-// From a surface on. The ray names the sphere on which it starts.
-Ray ray_from(const Surface& surface, Vec3d direction) {
-  Ray ray;
-  ray.origin = surface.origin;
-  ray.direction = to_float(direction);
-  ray.leaves = surface.id;
-  ray.inside = surface.from_inside;
-  return ray;
-}
-
 RayBatch shadow_rays(const Scene& scene, const std::vector<Surface>& surfaces) {
   const Vec3d light = scene.lights.empty() ? scene.camera.eye : scene.lights.front().position;
   RayBatch rays;
   for (const Surface& surface : surfaces) {
     const Vec3d to_light = scene.spheres.to_local(light) - to_double(surface.origin);
     if (!(dot(surface.normal, to_light) > 0)) continue;
-    Ray ray = ray_from(surface, to_light);
+    Ray ray = ray_from(surface, to_light, surface.from_inside);
     ray.t_max = 1;
     rays.push_back(ray);
   }
@@ -117,7 +107,8 @@ RayBatch ambient_rays(const std::vector<Surface>& surfaces) {
   RayBatch rays;
   for (const Surface& surface : surfaces) {
     const Vec3d sum = surface.normal + any_direction(random);
-    rays.push_back(ray_from(surface, dot(sum, sum) > 1e-6 ? normalized(sum) : surface.normal));
+    const Vec3d direction = dot(sum, sum) > 1e-6 ? normalized(sum) : surface.normal;
+    rays.push_back(ray_from(surface, direction, surface.from_inside));
   }
   return rays;
 }

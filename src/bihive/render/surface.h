@@ -21,6 +21,16 @@ struct Surface {
   Material material;  ///< with the checker's colour if there is a checker
 };
 
+/// A ray that starts on the surface. `inside`: whether it goes into the sphere or stick; a plane has no inside.
+inline Ray ray_from(const Surface& surface, Vec3d direction, bool inside) {
+  Ray ray;
+  ray.origin = surface.origin;
+  ray.direction = to_float(direction);
+  ray.leaves = surface.id;
+  ray.inside = surface.id != kPlane && inside;
+  return ray;
+}
+
 /// `hit` must be a hit, not a miss. `cuts`: of the scene (scene/clips.h); null: all spheres are whole.
 Surface surface_at(const Scene& scene, const Ray& ray, const SceneHit& hit, const CutSet* cuts);
 /// The outward normal, of length 1, at a hit of half a stick.

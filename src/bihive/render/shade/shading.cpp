@@ -11,16 +11,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A ray that starts on the surface. On a sphere, `inside` says whether it goes into the ball; a plane has no inside.
-Ray ray_from(const Surface& surface, Vec3d direction, bool inside) {
-  Ray ray;
-  ray.origin = surface.origin;
-  ray.direction = to_float(direction);
-  ray.leaves = surface.id;
-  ray.inside = surface.id != kPlane && inside;
-  return ray;
-}
-
 // A point of light as seen from a place.
 struct LightOffset {
   Vec3d offset;
