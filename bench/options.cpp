@@ -110,7 +110,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
                  "Instruction set of both: avx512, avx2, sse4 (the best); without a peer also scalar, neon")
       ->type_name("NAME");
   app.add_flag("--bound", options.bound,
-               "Count the least work of rays that are no primary ones, and the rate that two vector ports could reach");
+               "Count the least work of all rays but primary ones, and the rate that two vector ports could reach");
   app.add_flag("--json", options.json, "Print one JSON object instead of text");
 
   try {

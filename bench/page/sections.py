@@ -275,7 +275,7 @@ def bound(report):
         "One thread. The bound is the rate of an engine that tests each ray by itself against this tree, sixteen boxes or spheres at a",
         "time, knows where to look, and whose vector ports never wait: for memory, for the next node's address, or for the schedule. \"Proof\"",
         "counts the nodes and leaves that an oracle which knows the answer must still open, by which the bound goes; \"in order\" counts those of a",
-        "search from near to far. What lies between the bound and the rate is the search, waiting and bookkeeping. Beams share tests among rays, so",
+        "search from near to far. The rest of the time goes into the search, waiting and bookkeeping. Beams share tests among rays, so",
         "shadow rays and ambient occlusion along shared directions may exceed it. Bytes are those of nodes, spheres, rays and answers, per ray, each",
         "read once. Comb: parallel rays, row by row.",
         "",
@@ -312,7 +312,7 @@ def cliffs(report):
         "",
         f"{len(results)} sets of up to {max(result['spheres'] for result in results):,} spheres: hostile ones, and such as people have (`bench/cliffs/sets.py`), one thread, all kinds of rays beside",
         f"Embree. A kind is at a cliff where it is below {worst_sets.FLOOR} times Embree's speed, or below a quarter of the median of all sets;",
-        f"[performance_findings.md](performance_findings.md) has the reasons. Of the answers {wrong} were wrong.",
+        f"[performance_findings.md](performance_findings.md) has the reasons. Wrong answers: {wrong}.",
         "",
     ]
     by_kind = []

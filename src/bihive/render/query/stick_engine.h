@@ -246,7 +246,7 @@ class StickEngine final : public RayEngine {
   std::shared_ptr<const RayEngine> engine_of_spheres_;
   std::shared_ptr<const CutSet> cuts_;
   bool by_vectors_;
-  Tree tree_;  // of the sticks' boxes; with `wide_tree_` their common box alone
+  Tree tree_;  // over the sticks; where `wide_tree_` has nodes, only the box around all of them
   StickTree wide_tree_;
 };
 

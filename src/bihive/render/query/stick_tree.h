@@ -37,7 +37,7 @@ class StickTree {
   int levels_ = 0;
 };
 
-/// What a traversal asks about the sticks on a ray's way.
+/// What a traversal asks about the sticks near a ray.
 class StickTests {
  public:
   StickTests(const StickTests&) = delete;
