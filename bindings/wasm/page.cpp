@@ -156,9 +156,7 @@ std::string Page::load_built_in(const std::string& name, double count, const std
   return with_memory([&] {
     const Result<GivenReading> given = reading_from_json(how);
     if (!given) return failure(given.error());
-    ReadOptions reading;
-    reading.radius = given->options().radius;
-    reading.radius_scale = given->options().radius_scale;
+    const ReadOptions reading = given->options();
     ScenarioParameters parameters;
     if (count != 0) {
       if (!(count >= 1 && count <= kMostSpheres && count == std::floor(count)))

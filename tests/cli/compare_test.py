@@ -81,7 +81,7 @@ class Compare(ProgramTest):
                 self.assertEqual(len(one["mray_per_s"][kind]), len(result["threads"]))
                 self.assertGreaterEqual(steps["nodes"]["mean"], steps["leaves"]["mean"])
                 self.assertGreaterEqual(steps["sphere_tests"]["99_percent"], 1)
-                self.assertAlmostEqual(steps["cost"], steps["nodes"]["mean"] + steps["sphere_tests"]["mean"])
+                self.assertAlmostEqual(steps["cost"], steps["nodes"]["mean"] + steps["test_steps"]["mean"])
             if one["name"] != "brute":
                 self.assertEqual(len(one["levels"]), 0 if one["name"] == "grid" else one["depth"])
                 self.assertGreaterEqual(one["references"], result["spheres"] if one["name"] != "wide" else 1)

@@ -55,6 +55,16 @@ class Bodies(unittest.TestCase):
             seen.add(hits.kind[i])
         self.assertEqual(seen, {"sphere", "stick"})
 
+    def test_a_tuned_tree_keeps_the_bits(self):
+        shares = []
+        own = bh.BodyTree(self.spheres, self.sticks).closest(self.origins, self.directions)
+        tuned = bh.BodyTree(self.spheres, self.sticks, tune=True, threads=1, progress=shares.append)
+        for a, b in zip(own, tuned.closest(self.origins, self.directions), strict=True):
+            np.testing.assert_array_equal(a, b)
+        self.assertEqual(shares[-1], 1)
+        with self.assertRaisesRegex(bh.UsageError, "tune excludes max_depth"):
+            bh.BodyTree(self.spheres, self.sticks, tune=True, max_depth=4)
+
     def test_every_engine_gives_the_same_bits(self):
         trees = [bh.BodyTree(self.spheres, self.sticks, engine=engine, threads=1) for engine in ("wide", "reference", "brute", "wide-brute")]
         first = trees[0].closest(self.origins, self.directions)

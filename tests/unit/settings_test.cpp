@@ -99,6 +99,24 @@ TEST(Parameters, each_reaches_its_own_member) {
   for (const Parameter& p : picture_parameters()) EXPECT_EQ(p.get(changed), another_value(p)) << p.id;
 }
 
+// No row that GPUs do not draw can be ignored by them.
+TEST(Parameters, the_first_that_gpus_do_not_draw_is_found) {
+  EXPECT_EQ(first_cpu_only(PictureSettings()), nullptr);
+  int found = 0;
+  for (const Parameter& p : picture_parameters()) {
+    PictureSettings settings;
+    Overrides one;
+    one.set(p.id, another_value(p));
+    one.apply_to(settings);
+    const Parameter* const first = first_cpu_only(settings);
+    if (!p.cpu_only || p.group == ParameterGroup::lines) continue;
+    ASSERT_NE(first, nullptr) << p.id;
+    EXPECT_EQ(first->id, p.id);
+    ++found;
+  }
+  EXPECT_GE(found, 3);
+}
+
 TEST(Parameters, come_back_from_the_picture_of_a_scene_file) {
   const PictureSettings changed = all_changed();
   const std::string text = picture_to_json(changed);

@@ -206,11 +206,13 @@ std::string tuning_text(const workbench::Tuning& tuning, const std::string& name
                         100 * workbench::kAsGood);
   else
     text += fmt::format("{}: {} times as fast with{}\n", tuning.row.name, short_number(tuning.gain()), options);
-  if (tuning.costs.found())
-    text += fmt::format(
-        "costs on this machine: {} ns per query, {} per inner node, {} per leaf, {} per sphere test; rms {}\n",
-        short_number(tuning.costs.fixed_ns), short_number(tuning.costs.inner_ns), short_number(tuning.costs.leaf_ns),
-        short_number(tuning.costs.test_ns), percent_text(tuning.costs.rms));
+  text += fmt::format("\n{:<28}{:>8}{:>16}{:>18}{:>16}{:>10}\n", "costs here, ns", "query", "inner node", "leaf",
+                      "test step", "rms");
+  for (std::size_t k = 0; k < tuning.kinds.size(); ++k)
+    if (const workbench::CostFit& costs = tuning.costs[k]; costs.found())
+      text += fmt::format("{:<28}{:>8}{:>16}{:>18}{:>16}{:>10}\n", workbench::row_of(tuning.kinds[k]).name,
+                          short_number(costs.fixed_ns), short_number(costs.inner_ns), short_number(costs.leaf_ns),
+                          short_number(costs.test_ns), percent_text(costs.rms));
   text += fmt::format("\n{:<28}{:>8}{:>16}{:>18}{:>16}{:>10}\n", "choice", "levels", "counted cost", "predicted ns",
                       "measured ns", "rounds");
   for (const workbench::TuneCandidate& one : tuning.candidates)

@@ -11,6 +11,7 @@ from ._adapt import spheres_of
 from ._arrays import numbers, vectors, whole_numbers
 from ._errors import bad_argument, found
 from ._options import words_of
+from ._progress import Bar, Progress
 from ._spheres import Spheres
 from ._tree import in_blocks_of, segments_of
 
@@ -91,7 +92,7 @@ class AllBodyHits(NamedTuple):
 class BodyTree:
     """Answers which spheres and sticks rays meet: as exact as Tree, for rays alone.
 
-    spheres, engine, max_prims, max_depth, threads: as those of Tree. sticks: Sticks. Of equal distances the sphere counts, then
+    spheres, engine, max_prims, max_depth, tune, threads, progress: as those of Tree. sticks: Sticks. Of equal distances the sphere counts, then
         the stick that comes first.
 
     >>> tree = BodyTree(Spheres([[0.0, 0, 0], [4, 0, 0]], radius=1), Sticks([[0, 0, 0]], [[4, 0, 0]], 0.25))
@@ -108,15 +109,18 @@ class BodyTree:
         engine: str = "auto",
         max_prims: Union[int, str, None] = None,
         max_depth: Union[int, str, None] = None,
+        tune: bool = False,
         threads: int = 0,
+        progress: Progress = None,
     ) -> None:
         _bihive.check_environment()
         if not isinstance(sticks, Sticks):
             raise bad_argument("sticks", f"expected Sticks, found {found(sticks)}")
         self._spheres: Spheres = spheres_of(spheres)
         self._sticks = sticks
-        options = words_of({"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "threads": threads})
-        self._core = _bihive.build_body_tree(self._spheres._core, sticks.a, sticks.b, sticks.radius, options)
+        options = words_of({"engine": engine, "max_prims": max_prims, "max_depth": max_depth, "tune": tune, "threads": threads})
+        with Bar(progress, "building") as bar:
+            self._core = _bihive.build_body_tree(self._spheres._core, sticks.a, sticks.b, sticks.radius, options, bar)
 
     def __repr__(self) -> str:
         return f"<bihive.BodyTree of {len(self._spheres)} spheres and {len(self._sticks)} sticks>"

@@ -24,9 +24,8 @@ using Vectors = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 // Sticks with ends in world coordinates, (m, 3) each, and two radii each, (m, 2). bihive/_bodies.py has checked shapes.
 std::shared_ptr<RayTree> build_body_tree(const SharedSpheres& spheres, const Vectors& a, const Vectors& b,
-                                         const Vectors& radii, const std::vector<std::string>& words) {
-  const PictureRequest options = request_of(words);
-  if (is_gpu(options.engine)) fail_setting("engine", ": a graphics processor answers no rays", "leave it out");
+                                         const Vectors& radii, const std::vector<std::string>& words,
+                                         const py::object& progress) {
   auto scene = std::make_shared<Scene>();
   auto of_tree = std::make_shared<Spheres>();
   auto tree = std::make_shared<RayTree>();
@@ -42,12 +41,16 @@ std::shared_ptr<RayTree> build_body_tree(const SharedSpheres& spheres, const Vec
     sticks[i].radius_a = radii.at(row, 0);
     sticks[i].radius_b = radii.at(row, 1);
   }
-  const py::gil_scoped_release unlocked;
-  value_of(scene->sticks.add(scene->spheres, sticks));
-  of_tree->file.spheres = scene->spheres;
-  tree->threads = static_cast<int>(options.threads);
-  tree->spheres = std::move(of_tree);
-  tree->tracer = value_of(Tracer::build(*scene, structure_of(options.engine), options.tree, tree->threads));
+  const auto set = [&]() -> const SphereSet& {
+    value_of(scene->sticks.add(scene->spheres, sticks));
+    of_tree->file.spheres = scene->spheres;
+    tree->spheres = std::move(of_tree);
+    return scene->spheres;
+  };
+  const std::int64_t bodies = scene->spheres.size() + std::ssize(sticks);
+  build_tree_of(*tree, request_of(words), bodies, progress, set, [&](Engine engine, const TreeParameters& limits) {
+    tree->tracer = value_of(Tracer::build(*scene, engine, limits, tree->threads));
+  });
   tree->scene = std::move(scene);
   return tree;
 }

@@ -45,7 +45,7 @@ constexpr std::int64_t kMostTests = std::int64_t{1} << 23;
 
 // The calling thread builds a tree of so few spheres, in a millisecond or two: another thread takes as long to start as
 // a tree of a thousand.
-constexpr std::int64_t kFewSpheres = 16384;
+constexpr std::int64_t kFewBodies = 16384;
 
 // Columns of Python's arrays, each of `count` numbers. `leaves` and `inside` are null or contiguous.
 struct RayArrays {
@@ -395,44 +395,52 @@ py::tuple surfaces(const RayTree& tree, const py::array& origin, const py::array
 // trace` about tree, engine and threads. `periodic`: queries see the images along the set's cell.
 std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::optional<std::vector<std::int64_t>>& part,
                                     bool periodic, const std::vector<std::string>& words, const py::object& progress) {
-  const PictureRequest options = request_of(words);
-  if (is_gpu(options.engine)) fail_setting("engine", ": a graphics processor answers no rays", "leave it out");
-  const Engine engine = structure_of(options.engine);
-  if (options.tune) check_tuning(options.tree, name_of(kRenderEngines, options.engine), !is_brute(engine));
   auto tree = std::make_shared<RayTree>();
-  tree->threads = static_cast<int>(options.threads);
-  const auto build = [&](Work& work) {
+  const auto set = [&]() -> const SphereSet& {
     tree->spheres = spheres;
     if (part) {
       auto some = std::make_shared<Spheres>();
       some->file.spheres = spheres->file.spheres.part(*part);
       tree->spheres = std::move(some);
     }
-    const SphereSet& set = tree->spheres->file.spheres;
-    TreeParameters limits = options.tree;
-    const auto end_if_cancelled = [&](double) {
-      if (work.cancel.cancelled()) throw Cancelled{};
-    };
-    if (options.tune) limits = tuned_tree_for_rays(set, engine, tree->threads, end_if_cancelled).tree;
-    value_of(check_tree_memory(set, engine, limits));
-    const Watch watch(work.between(0, 1), &work.cancel);
-    tree->tracer = value_of(Tracer::build(set, engine, limits, tree->threads));
-    if (periodic && !set.has_images()) tree->images = value_of(PeriodicImages::of(set, tree->threads));
+    return tree->spheres->file.spheres;
   };
-  if (spheres->file.spheres.size() > kFewSpheres || options.tune) {
-    wait_for(build, progress);
-    return tree;
-  }
-  {
-    const py::gil_scoped_release unlocked;
-    Work work;
-    build(work);
-  }
-  if (!progress.is_none()) progress(1.0);
+  build_tree_of(*tree, request_of(words), spheres->file.spheres.size(), progress, set, [&](Engine engine, const TreeParameters& limits) {
+    const SphereSet& of_tree = tree->spheres->file.spheres;
+    value_of(check_tree_memory(of_tree, engine, limits));
+    tree->tracer = value_of(Tracer::build(of_tree, engine, limits, tree->threads));
+    if (periodic && !of_tree.has_images()) tree->images = value_of(PeriodicImages::of(of_tree, tree->threads));
+  });
   return tree;
 }
 
 }  // namespace
+
+void build_tree_of(RayTree& tree, const PictureRequest& request, std::int64_t bodies, const py::object& progress,
+                   const std::function<const SphereSet&()>& set,
+                   const std::function<void(Engine, const TreeParameters&)>& build) {
+  if (is_gpu(request.engine)) fail_setting("engine", ": a graphics processor answers no rays", "leave it out");
+  const Engine engine = structure_of(request.engine);
+  if (request.tune) check_tuning(request.tree, name_of(kRenderEngines, request.engine), !is_brute(engine));
+  tree.threads = static_cast<int>(request.threads);
+  const auto all = [&](Work& work) {
+    const SphereSet& spheres = set();
+    TreeParameters limits = request.tree;
+    const auto end_if_cancelled = [&](double) {
+      if (work.cancel.cancelled()) throw Cancelled{};
+    };
+    if (request.tune) limits = tuned_tree_for_rays(spheres, engine, tree.threads, end_if_cancelled).tree;
+    const Watch watch(work.between(0, 1), &work.cancel);
+    build(engine, limits);
+  };
+  if (bodies > kFewBodies || request.tune) return wait_for(all, progress);
+  {
+    const py::gil_scoped_release unlocked;
+    Work work;
+    all(work);
+  }
+  if (!progress.is_none()) progress(1.0);
+}
 
 const WideTree& wide_tree_for(const RayTree& tree, const char* query) {
   const WideTree* const wide = tree.tracer->wide_tree();

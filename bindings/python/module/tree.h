@@ -3,9 +3,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 
+#include "bihive/job/picture_request.h"
+#include "bihive/job/waiting.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/scene.h"
 #include "bihive/wide/periodic_images.h"
@@ -23,6 +26,13 @@ struct RayTree {
 };
 
 using TreeClass = pybind11::class_<RayTree, std::shared_ptr<RayTree>>;
+
+/// Builds a tree of the request's engine: `set` makes its spheres, `build` what it has, with limits as the request has
+/// them, or searched (`tune`). With many bodies or a search it waits as wait_for() does. Fails where the engine has no
+/// tree of rays, or nothing to search.
+void build_tree_of(RayTree& tree, const PictureRequest& request, std::int64_t bodies, const pybind11::object& progress,
+                   const std::function<const SphereSet&()>& set,
+                   const std::function<void(Engine, const TreeParameters&)>& build);
 
 /// Adds Tree to the module.
 void bind_trees(pybind11::module_& module);

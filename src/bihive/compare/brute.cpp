@@ -15,7 +15,7 @@ class Brute final : public ByRay<Brute> {
   StructureFacts facts() const override {
     StructureFacts facts;
     facts.expected_nodes = 0;
-    facts.expected_spheres = static_cast<double>(spheres().size());
+    facts.expected_spheres = facts.expected_test_steps = static_cast<double>(spheres().size());
     return facts;
   }
   std::int64_t rays_per_call() const override {

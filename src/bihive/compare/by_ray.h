@@ -22,13 +22,19 @@ struct NoCount {
 
 struct Count {
   Work work;
+  std::int64_t together = 1;  // spheres of a node that are tested together
+  std::int64_t tests_in_node = 0;
 
   void node(bool is_leaf) {
     ++work.nodes;
     work.leaves += is_leaf ? 1 : 0;
+    tests_in_node = 0;
   }
   void box_test() { ++work.box_tests; }
-  void sphere_test(std::int64_t) { ++work.sphere_tests; }
+  void sphere_test(std::int64_t) {
+    ++work.sphere_tests;
+    work.test_steps += tests_in_node++ % together == 0 ? 1 : 0;
+  }
   void answer(const Hit&) {}
 };
 
@@ -57,6 +63,7 @@ using NearestSphere = NearestAnswer</*kAnyHit=*/false>;
 ///     passes every sphere that a valid ray may hit up to answer.limit() to test(), and ends where that returns true;
 ///   void search(Vec3d point, NearestSphere& nearest, Counter& counter) const
 ///     the same for spheres up to nearest.limit() from a point in stored units.
+/// and may say with `kTestedTogether` that so many spheres of a node count as one step.
 template <class Self>
 class ByRay : public Structure {
  public:
@@ -86,6 +93,7 @@ class ByRay : public Structure {
   }
   Work work_of_ray(const Ray& ray, bool any_hit) const override {
     Count counter;
+    counter.together = Self::kTestedTogether;
     if (any_hit)
       answer<true>(ray, counter);
     else
@@ -102,11 +110,14 @@ class ByRay : public Structure {
   }
   Work work_of_point(Vec3d point) const override {
     Count counter;
+    counter.together = Self::kTestedTogether;
     nearest(point, counter);
     return counter.work;
   }
 
  protected:
+  static constexpr std::int64_t kTestedTogether = 1;
+
   const SphereSet& spheres() const { return spheres_; }
 
   /// Tests a ray against a sphere; true where the traversal is over.

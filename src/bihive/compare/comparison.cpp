@@ -9,6 +9,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/resident_memory.h"
+#include "bihive/base/thread_timer.h"
 #include "bihive/base/timer.h"
 #include "bihive/compare/run_queries.h"
 
@@ -147,7 +148,7 @@ class Run {
     Answers answers;
     answers.resize(set.size());
     for (const int threads : threads_) {
-      const Timer timer;
+      const ThreadTimer timer(threads);
       answer_all(structure, set, threads, answers);
       const double first_ms = timer.elapsed_ms();
       if (result.ms.empty()) result.different = sets_[k].count_different(answers);
@@ -171,7 +172,8 @@ class Run {
     result.leaves = statistics(&Work::leaves);
     result.box_tests = statistics(&Work::box_tests);
     result.sphere_tests = statistics(&Work::sphere_tests);
-    result.cost = result.nodes.mean + result.sphere_tests.mean;
+    result.test_steps = statistics(&Work::test_steps);
+    result.cost = result.nodes.mean + result.test_steps.mean;
   }
 };
 

@@ -39,7 +39,7 @@ struct KindResult {
   /// nothing below is set.
   std::int64_t queries = 0;
   std::vector<double> ms;  ///< of all of them once, for each entry of Comparison::threads
-  StepStatistics nodes, leaves, box_tests, sphere_tests;
+  StepStatistics nodes, leaves, box_tests, sphere_tests, test_steps;
   double cost = 0;             ///< mean of Work::cost()
   std::int64_t different = 0;  ///< queries whose answer differs from that of the reference BIH in some bit
 
@@ -58,7 +58,7 @@ struct StructureResult {
   StructureFacts facts;
   std::vector<KindResult> kinds;  ///< in the order of ComparisonOptions::kinds
   /// Of its steps on one thread, from four groups of each kind's queries, by their number of steps. Those of the wide
-  /// tree are fitted to the steps of a scalar traversal.
+  /// tree are fitted to the steps of rays by themselves.
   CostFit fit;
   /// Work::cost() of the primary ray through each pixel of a square picture, row by row from the top. Empty: not
   /// requested, or the structure would need more than 2^28 steps.

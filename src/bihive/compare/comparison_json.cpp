@@ -24,6 +24,7 @@ ordered_json json_of(const KindResult& kind) {
   json["leaves"] = steps(kind.leaves);
   json["box_tests"] = steps(kind.box_tests);
   json["sphere_tests"] = steps(kind.sphere_tests);
+  json["test_steps"] = steps(kind.test_steps);
   json["cost"] = kind.cost;
   json["different"] = kind.different;
   return json;
@@ -69,6 +70,7 @@ ordered_json json_of(const StructureResult& result) {
   json["depth"] = result.facts.depth;
   json["expected"] = {{"nodes", result.facts.expected_nodes},
                       {"sphere_tests", result.facts.expected_spheres},
+                      {"test_steps", result.facts.expected_test_steps},
                       {"cost", result.facts.expected_cost()}};
   json["levels"] = ordered_json::array();
   for (const LevelFacts& level : result.facts.levels)
@@ -157,7 +159,9 @@ std::string tuning_json(const Tuning& tuning, const std::string& name) {
   json["queries"] = ordered_json::object();
   for (std::size_t k = 0; k < tuning.kinds.size(); ++k)
     json["queries"][row_of(tuning.kinds[k]).name] = tuning.queries[k];
-  json["fit"] = json_of(tuning.costs);
+  json["fit"] = ordered_json::object();
+  for (std::size_t k = 0; k < tuning.kinds.size(); ++k)
+    json["fit"][row_of(tuning.kinds[k]).name] = json_of(tuning.costs[k]);
   json["calibration_ms"] = tuning.calibration_ms;
   json["best"] = json_of_candidate(tuning.best);
   json["own"] = json_of_candidate(tuning.own);

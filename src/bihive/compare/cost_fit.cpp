@@ -14,7 +14,7 @@ CostFit fit_costs(const std::vector<TimedWork>& groups) {
   if (groups.size() < kLeastGroups) return {};
   std::vector<std::array<double, 4>> rows;
   for (const TimedWork& one : groups)
-    rows.push_back({1 / one.ns, one.inner / one.ns, one.leaves / one.ns, one.sphere_tests / one.ns});
+    rows.push_back({1 / one.ns, one.inner / one.ns, one.leaves / one.ns, one.test_steps / one.ns});
   // Bring the columns to one size, because the solver compares pivots with a fixed number.
   std::array<double, 4> size{};
   for (const auto& row : rows)
@@ -45,10 +45,10 @@ TimedWork mean_work(const std::vector<Work>& works, const std::vector<std::int64
     const Work& work = works[static_cast<std::size_t>(i)];
     mean.inner += static_cast<double>(work.nodes - work.leaves);
     mean.leaves += static_cast<double>(work.leaves);
-    mean.sphere_tests += static_cast<double>(work.sphere_tests);
+    mean.test_steps += static_cast<double>(work.test_steps);
   }
   const auto count = static_cast<double>(chosen.size());
-  mean.inner /= count, mean.leaves /= count, mean.sphere_tests /= count;
+  mean.inner /= count, mean.leaves /= count, mean.test_steps /= count;
   return mean;
 }
 

@@ -12,11 +12,11 @@ namespace bihive::workbench {
 
 /// Queries of one kind that take a similar number of steps: means per query.
 struct TimedWork {
-  double inner = 0, leaves = 0, sphere_tests = 0;
+  double inner = 0, leaves = 0, test_steps = 0;
   double ns = 0;  ///< > 0
 };
 
-/// time = fixed + inner nodes * inner + leaves * leaf + sphere tests * test: nanoseconds on one thread, by least
+/// time = fixed + inner nodes * inner + leaves * leaf + test steps * test: nanoseconds on one thread, by least
 /// squares of the relative error, none of them negative. Box tests have no cost of their own: in a tree they are in a
 /// fixed proportion to inner nodes.
 struct CostFit {
@@ -29,7 +29,7 @@ struct CostFit {
 
   bool found() const { return groups > 0; }
   double ns_of(const TimedWork& work) const {
-    return fixed_ns + work.inner * inner_ns + work.leaves * leaf_ns + work.sphere_tests * test_ns;
+    return fixed_ns + work.inner * inner_ns + work.leaves * leaf_ns + work.test_steps * test_ns;
   }
 };
 

@@ -45,7 +45,7 @@ class Grid final : public ByRay<Grid> {
       facts.leaves += begin_[static_cast<std::size_t>(i)] < begin_[static_cast<std::size_t>(i + 1)] ? 1 : 0;
     const double share = (size_.x * size_.y + size_.y * size_.z + size_.z * size_.x) / half_surface(box_);
     facts.expected_nodes = share * static_cast<double>(cells);
-    facts.expected_spheres = share * static_cast<double>(ids_.size());
+    facts.expected_spheres = facts.expected_test_steps = share * static_cast<double>(ids_.size());
     return facts;
   }
 

@@ -20,6 +20,11 @@ class LevelSums {
 
   /// A node on a level, from 1, and the number of spheres that it lists.
   void add(std::int64_t level, const Aabb& box, bool is_leaf, std::int64_t spheres) {
+    add(level, box, is_leaf, spheres, spheres);
+  }
+  /// The same where the spheres take fewer steps to test.
+  void add(std::int64_t level, const Aabb& box, bool is_leaf, std::int64_t spheres, std::int64_t test_steps) {
+    test_steps_ += half_surface(box) * static_cast<double>(test_steps);
     LevelFacts& at = level_at(level).facts;
     ++at.nodes;
     at.leaves += is_leaf ? 1 : 0;
@@ -41,7 +46,10 @@ class LevelSums {
   /// Sets leaves, references, depth, levels and the expected numbers.
   void put(StructureFacts& facts) const {
     facts.depth = std::ssize(levels_);
-    if (whole_ > 0) facts.expected_nodes = facts.expected_spheres = 0;
+    if (whole_ > 0) {
+      facts.expected_nodes = facts.expected_spheres = 0;
+      facts.expected_test_steps = test_steps_ / whole_;
+    }
     for (const Level& level : levels_) {
       LevelFacts made = level.facts;
       made.expected_nodes /= whole_;
@@ -79,6 +87,7 @@ class LevelSums {
   }
 
   double whole_;
+  double test_steps_ = 0;
   std::vector<Level> levels_;
 };
 

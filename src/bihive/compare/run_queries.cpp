@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "bihive/base/parallel.h"
-#include "bihive/base/timer.h"
+#include "bihive/base/thread_timer.h"
 #include "bihive/math/quartiles.h"
 
 namespace bihive::workbench {
@@ -100,10 +100,10 @@ std::vector<Work> count_all(const Structure& structure, const QuerySet& set, int
 double time_of_answers(const Structure& structure, const QuerySet& set, int threads, double first_ms,
                        const TimingEffort& effort, Answers& answers) {
   const auto passes = static_cast<int>(std::ceil(effort.round_ms / std::max(first_ms, 1e-2)));
-  const Timer all;
+  const ThreadTimer all(threads);
   std::vector<double> times;
   while (times.size() < effort.rounds && (times.empty() || all.elapsed_ms() < effort.most_ms)) {
-    const Timer round;
+    const ThreadTimer round(threads);
     for (int pass = 0; pass < passes; ++pass) answer_all(structure, set, threads, answers);
     times.push_back(round.elapsed_ms() / passes);
   }
@@ -113,7 +113,7 @@ double time_of_answers(const Structure& structure, const QuerySet& set, int thre
 double time_of_answers(const Structure& structure, const QuerySet& set, int threads, const TimingEffort& effort) {
   Answers answers;
   answers.resize(set.size());
-  const Timer timer;
+  const ThreadTimer timer(threads);
   answer_all(structure, set, threads, answers);
   return time_of_answers(structure, set, threads, timer.elapsed_ms(), effort, answers);
 }

@@ -24,9 +24,10 @@ struct Work {
   std::int64_t leaves = 0;        ///< leaves entered; of a grid: cells with spheres
   std::int64_t box_tests = 0;     ///< boxes compared with the ray or point; planes alone do not count
   std::int64_t sphere_tests = 0;  ///< a sphere in several leaves may be tested several times
+  std::int64_t test_steps = 0;    ///< sphere tests, but spheres that a structure tests together count once
 
-  /// The surface area heuristic with one unit for a node and one for a sphere.
-  double cost() const { return static_cast<double>(nodes + sphere_tests); }
+  /// The surface area heuristic with one unit for a node and one for the test of a sphere, or of several together.
+  double cost() const { return static_cast<double>(nodes + test_steps); }
 };
 
 /// One node on a ray's way.
@@ -63,10 +64,11 @@ struct StructureFacts {
   /// probability that it meets a box inside is proportional to that box's surface. NaN where the box has no surface.
   double expected_nodes = std::numeric_limits<double>::quiet_NaN();
   double expected_spheres = std::numeric_limits<double>::quiet_NaN();
+  double expected_test_steps = std::numeric_limits<double>::quiet_NaN();  ///< as Work::test_steps
 
   std::vector<LevelFacts> levels;  ///< from the root's on; empty without a tree
 
-  double expected_cost() const { return expected_nodes + expected_spheres; }
+  double expected_cost() const { return expected_nodes + expected_test_steps; }
 };
 
 /// Immutable once built; any number of threads may ask it. It refers to the set, which must outlive it. An invalid ray
@@ -87,7 +89,7 @@ class Structure {
   /// it: `t` gets the distance in world units. Points are x, y, z in world units, one after the other, and finite.
   virtual void nearest_spheres(const double* points, std::int64_t count, const HitSpan& found) const = 0;
 
-  /// Steps of one ray or point. The wide tree's are those of a scalar traversal: its vectors take rays together.
+  /// Steps of one ray or point. The wide tree's are those of a ray by itself: its beams take rays together.
   virtual Work work_of_ray(const Ray& ray, bool any_hit) const = 0;
   virtual Work work_of_point(Vec3d point) const = 0;
   /// The steps that work_of_ray() counts, one by one.

@@ -6,6 +6,7 @@
 #include "bihive/base/near_name.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/parse_number.h"
+#include "bihive/base/thread_timer.h"
 #include "bihive/base/timer.h"
 #include "bihive/compare/run_queries.h"
 
@@ -69,7 +70,7 @@ Result<SweepPoint> measure_point(const StructureRow& row, const StructureParamet
     for (const Work& of_query : count_all(**structure, set, threads)) work += of_query.cost();
     Answers answers;
     answers.resize(set.size());
-    const Timer first;
+    const ThreadTimer first(threads);
     answer_all(**structure, set, threads, answers);
     const double first_ms = first.elapsed_ms();
     point.different += one.count_different(answers);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "bihive/base/parallel.h"
@@ -107,41 +108,43 @@ class Tuner {
   // Times groups of queries on three trees whose leaves differ much, so that the steps have different proportions.
   void calibrate() {
     const Timer timer;
-    std::vector<TimedWork> groups;
-    constexpr std::int64_t kGroups = 3;
+    constexpr std::int64_t kGroups = 4;
     const std::size_t last = built_.size() - 1;
     std::vector<std::size_t> chosen{0};
     if (last > 0) chosen.push_back(1);
     if (last > 1) chosen.push_back(last);
     const double each_ms = kCalibrationMs / double(chosen.size() * sets_.size() * kGroups);
-    for (const std::size_t b : chosen)
-      for (std::size_t k = 0; k < sets_.size(); ++k)
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      std::vector<TimedWork> groups;
+      for (const std::size_t b : chosen)
         for (const std::vector<std::int64_t>& group : groups_by_work(built_[b].works[k], kGroups)) {
           const QuerySet part = subset_of(sets_[k].set, group);
           groups.push_back(mean_work(built_[b].works[k], group));
           const double ms = time_of_answers(*built_[b].structure, part, 1, {each_ms / 2, 0, 1});
           groups.back().ns = ms * 1e6 / static_cast<double>(part.size());
         }
-    tuning_.costs = fit_costs(groups);
+      tuning_.costs.push_back(fit_costs(groups));
+    }
     tuning_.calibration_ms = timer.elapsed_ms();
   }
 
-  // By the time that counts and costs predict; by the counts alone where there is no fit.
+  // By the time that counts and costs predict for the kinds that have a fit; by the counts alone where none has.
   void rank_by_counts() {
+    const bool has_costs =
+        std::any_of(tuning_.costs.begin(), tuning_.costs.end(), [](const CostFit& costs) { return costs.found(); });
     for (Built& one : built_) {
       double ns = 0, kinds = 0;
-      for (const std::vector<Work>& works : one.works) {
-        if (works.empty()) continue;
+      for (std::size_t k = 0; k < sets_.size(); ++k) {
+        if (!tuning_.costs[k].found()) continue;
+        const std::vector<Work>& works = one.works[k];
         std::vector<std::int64_t> all(works.size());
-        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i);
-        ns += tuning_.costs.ns_of(mean_work(works, all));
+        std::iota(all.begin(), all.end(), 0);
+        ns += tuning_.costs[k].ns_of(mean_work(works, all));
         ++kinds;
       }
-      one.candidate.counted_ns = tuning_.costs.found() ? ns / kinds : kNotMeasured;
+      one.candidate.counted_ns = has_costs ? ns / kinds : kNotMeasured;
     }
-    const auto rank = [&](const Built& one) {
-      return tuning_.costs.found() ? one.candidate.counted_ns : one.candidate.work;
-    };
+    const auto rank = [&](const Built& one) { return has_costs ? one.candidate.counted_ns : one.candidate.work; };
     std::stable_sort(built_.begin(), built_.end(), [&](const Built& a, const Built& b) { return rank(a) < rank(b); });
   }
 

@@ -28,7 +28,7 @@ struct TuneCandidate {
   StructureParameters parameters;  ///< all 0: the structure's own choice
   std::int64_t bytes = 0, depth = 0;
   double work = 0;        ///< mean of Work::cost() over queries and kinds
-  double counted_ns = 0;  ///< of a query, by the counted steps and the fitted costs; NaN without a fit
+  double counted_ns = 0;  ///< of a query, by the counted steps and the fitted costs, of kinds with a fit; NaN: none has
   double ns = 0;          ///< median of the rounds; NaN: it was not timed
   std::int64_t rounds = 0;
 
@@ -41,7 +41,7 @@ struct Tuning {
   int threads = 0;  ///< never 0
   std::vector<QueryKind> kinds;
   std::vector<std::int64_t> queries;  ///< made, of each kind
-  CostFit costs;                      ///< of one thread
+  std::vector<CostFit> costs;  ///< of one thread, by kind; none found where the kind has too few queries or trees
   double calibration_ms = 0;
   std::vector<TuneCandidate> candidates;  ///< the longest timed first, then by time, the others by work
   /// The choice: the fastest by the clock of those timed to the end; the structure's own where that gains less than
@@ -53,9 +53,10 @@ struct Tuning {
 };
 
 /// Builds the structure with max_prims from 1 to 64, and those that need the least time by counted work with fewer
-/// levels too. The costs of its steps come from a calibration of about 50 ms. Then rounds in turn, of about 10 ms each,
-/// until half of the candidates remain, and so on to the last one: successive halving. Counts do not depend on the
-/// machine, the choice does. Errors: an unknown structure, one without parameters, or one that cannot be built.
+/// levels too. The costs of its steps, for each kind of queries its own, come from a calibration of about 50 ms. Then
+/// rounds in turn, of about 10 ms each, until half of the candidates remain, and so on to the last one: successive
+/// halving. Counts do not depend on the machine, the choice does. Errors: an unknown structure, one without parameters,
+/// or one that cannot be built.
 Result<Tuning> tune_structure(const Scene& scene, const TuneOptions& options);
 
 }  // namespace bihive::workbench

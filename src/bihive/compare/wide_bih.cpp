@@ -19,10 +19,13 @@ Aabb box_of_child(const WideNode& node, int slot) {
   return box;
 }
 
-// The work of a scalar traversal of the same tree, one query at a time. Its spheres are those of the tree: of equal
-// ones in one place, the tree may have only the first.
+// The work of one query at a time in the same tree, in the steps of its vectors: one for the boxes of a node, one for
+// the spheres of a leaf. Its spheres are those of the tree: of equal ones in one place, the tree may have only the
+// first.
 class WideWork final : public ByRay<WideWork> {
  public:
+  static constexpr std::int64_t kTestedTogether = kWidth;
+
   WideWork(const SphereSet& spheres, const WideTree& tree) : ByRay(spheres), tree_(tree) {}
   StructureFacts facts() const override { return {}; }
 
@@ -100,7 +103,7 @@ class WideBih final : public Structure {
       const Part at = pending.back();
       pending.pop_back();
       ++facts.nodes;
-      sums.add(at.level, at.box, false, 0);
+      sums.add(at.level, at.box, false, 0, 0);
       boxes.clear();
       for (int slot = 0; slot < at.node->child_count; ++slot) {
         boxes.push_back(box_of_child(*at.node, slot));
@@ -109,7 +112,8 @@ class WideBih final : public Structure {
           continue;
         }
         ++facts.nodes;
-        sums.add(at.level + 1, boxes.back(), true, at.node->sphere_count(slot));
+        const std::int64_t spheres = at.node->sphere_count(slot);
+        sums.add(at.level + 1, boxes.back(), true, spheres, (spheres + kWidth - 1) / kWidth);
       }
       sums.add_children(at.level, at.box, boxes);
     }

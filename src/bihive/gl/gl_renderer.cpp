@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bihive/base/check.h"
+#include "bihive/base/setting_name.h"
 #include "bihive/base/timer.h"
 #include "bihive/gl/film_textures.h"
 #include "bihive/gl/first_hits_texture.h"
@@ -16,6 +17,7 @@
 #include "bihive/gl/scene_on_gpu.h"
 #include "bihive/gl/tile_walk.h"
 #include "bihive/scene/clips.h"
+#include "bihive/settings/parameter.h"
 
 namespace bihive {
 namespace {
@@ -131,6 +133,9 @@ class GlRenderer::Implementation {
                    "choose an engine of the CPU, or another rule"};
     if (settings.cell_lines && settings.view == View::shaded)
       return Error{"the graphics processor draws no edges of a cell", "", 0, 0, "choose an engine of the CPU"};
+    if (const Parameter* const row = first_cpu_only(settings); row != nullptr && settings.view == View::shaded)
+      return Error{"the graphics processor draws no pictures with " + setting_name(std::string(row->id)), "", 0, 0,
+                   "choose an engine of the CPU"};
     if (settings.transparent && settings.view == View::traversal)
       return Error{"this view of the tree has no transparent background", "", 0, 0, "choose another view"};
     const Camera local = relative_to(camera, scene_.origin());

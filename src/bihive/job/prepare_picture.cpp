@@ -34,6 +34,7 @@
 #include "bihive/scene/show_density.h"
 #include "bihive/scene/title_text.h"
 #include "bihive/settings/check_picture.h"
+#include "bihive/settings/parameter.h"
 #include "bihive/settings/picture_report.h"
 
 namespace bihive {
@@ -183,6 +184,8 @@ void refuse_on_gpu(RenderEngine engine, const Scene& scene, const RenderSettings
   if (has_clips(scene)) refuse("cut spheres", "without " + setting_name("clip"));
   if (scene.cavity_walls != nullptr) refuse("walls of cavities", "without " + setting_name("show_cavities"));
   if (scene.spheres.has_images()) refuse("replicated spheres", "without " + setting_name("replicate"));
+  if (const Parameter* const row = first_cpu_only(settings))
+    refuse("pictures with " + setting_name(std::string(row->id)), "without it");
 }
 
 constexpr std::int64_t kMostSeen = 50'000'000;  // spheres and images, for a question about all of them

@@ -45,6 +45,13 @@ std::vector<std::string> items_of(std::string_view list) {
 
 }  // namespace
 
+const Parameter* first_cpu_only(const PictureSettings& settings) {
+  static const PictureSettings defaults;
+  for (const Parameter& row : picture_parameters())
+    if (row.cpu_only && row.group != ParameterGroup::lines && row.get(settings) != row.get(defaults)) return &row;
+  return nullptr;
+}
+
 const Parameter* parameter_named(std::string_view id) {
   for (const Parameter& parameter : picture_parameters())
     if (parameter.id == id || (!parameter.alias.empty() && parameter.alias == id)) return &parameter;

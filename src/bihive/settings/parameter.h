@@ -47,7 +47,7 @@ struct Parameter {
   bool has_option = true;         ///< "--" and the id with hyphens; false: another option of the command line sets it
   bool has_no_option = false;     ///< a flag: "--no-..." too
   bool in_window = true;          ///< available in window and page
-  bool cpu_only = false;          ///< not drawn by the GPU
+  bool cpu_only = false;          ///< not drawn by the GPU, which refuses another value than the default
   bool makes_sticks = false;      ///< of bonds, arrows, tubes and the like: they are made anew with the scene
   std::string_view implies = "";  ///< switched on by setting this one, unless set explicitly
   std::string_view value_name = "N";  ///< name of the value in --help
@@ -75,6 +75,10 @@ struct Parameter {
 
 /// All rows; one that another one implies comes before it.
 std::span<const Parameter> picture_parameters();
+
+/// The first row that GPUs do not draw and whose value is not the default; null: none. Rows of lines are left out: what
+/// they ask for are sticks and walls in the scene, which GPUs refuse themselves.
+const Parameter* first_cpu_only(const PictureSettings& settings);
 
 /// The row of an id or alias; null: none.
 const Parameter* parameter_named(std::string_view id);
