@@ -18,6 +18,7 @@
 #include "bihive/math/rng.h"
 #include "bihive/render/query/brute_force.h"
 #include "bihive/render/query/reference_engine.h"
+#include "bihive/render/query/stick_block.h"
 #include "bihive/render/query/stick_engine.h"
 #include "bihive/render/tracer.h"
 #include "bihive/scene/scene.h"
@@ -414,6 +415,122 @@ TEST(Sticks, TheTreeLosesNothing) {
     }
   }
   EXPECT_GT(on_sticks, 1000);
+}
+
+// A ray, and others that are nearly like it: closer and closer, some the same.
+std::vector<Ray> neighbours_of(const Ray& ray, SplitMix64& rng) {
+  std::vector<Ray> rays{ray};
+  const double reach = length(to_double(ray.direction));
+  const double origin_step = test::log_uniform(rng, 1e-8, 0.1), step = test::log_uniform(rng, 1e-8, 0.1);
+  const bool common_origin = rng.next_below(2) == 0;
+  while (std::ssize(rays) < StickBlock::kRays) {
+    Ray near = ray;
+    const Vec3d origin = to_double(ray.origin);
+    if (!common_origin) near.origin = to_float(origin + origin_step * (1 + length(origin)) * unit(rng));
+    if (rng.next_below(8) != 0) near.direction = to_float(to_double(ray.direction) + step * reach * unit(rng));
+    if (rng.next_below(8) == 0)
+      near.t_max = near.t_min + static_cast<float>(rng.next_double() / std::max(reach, 1e-30));
+    rays.push_back(near);
+  }
+  return rays;
+}
+
+// The rays of a block meet every stick that each of them hits, with the bits of its roots, in both kinds of queries.
+TEST(Sticks, NeighbouringRaysMeetTheirSticksTogether) {
+  std::int64_t blocks = 0, tried = 0, hits_in_blocks = 0, dropped = 0;
+  for (const test::World& world : test::degenerate_worlds()) {
+    if (world.size() < 2) continue;
+    SCOPED_TRACE(world.name);
+    SphereSet spheres = test::sphere_set(world);
+    SplitMix64 rng(81);
+    const StickSet sticks = chain_of(spheres, 0x1p-5 * spheres.inverse_scale(), rng);
+    std::vector<Aabb> boxes;
+    for (std::int64_t k = 0; k < sticks.size(); ++k) boxes.push_back(sticks.stored_box(spheres, k));
+    const StickTree tree(boxes, build_reference_tree(boxes, {2, kUnlimited}));
+    const auto of_spheres = std::make_shared<ReferenceEngine>(
+        spheres, std::make_shared<const Tree>(build_reference_tree(spheres, BuildParameters())));
+    const StickEngine engine(spheres, sticks, of_spheres, nullptr, /*by_vectors=*/true);
+    test::EdgeRays edge_rays(world, 82);
+    for (int i = 0; i < test::at_least(3, 12); ++i) {
+      std::vector<Ray> rays = neighbours_of(edge_rays.next(), rng);
+      if (i % 3 == 0)
+        for (Ray& ray : rays)
+          if (rng.next_below(2) == 0)
+            ray.leaves =
+                static_cast<std::int64_t>(rng.next_below(std::uint64_t(spheres.total_size() + 2 * sticks.size())));
+      RayBatch batch;
+      std::vector<Hit> truths;
+      for (const Ray& ray : rays) {
+        batch.push_back(ray);
+        truths.push_back(brute_closest(spheres, sticks, ray));
+      }
+      for (const std::string& target : test::targets_under_test()) {
+        SCOPED_TRACE(target);
+        ASSERT_TRUE(use_target(target).ok());
+        HitBatch hits;
+        hits.resize(batch.size());
+        std::vector<std::uint8_t> hidden(rays.size());
+        engine.closest_hits(batch.span(), RayOrder::blocks, hits.span());
+        engine.occluded(batch.span(), RayOrder::blocks, hidden.data());
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+          ASSERT_EQ(hits.sphere_id[k], truths[k].sphere_id) << test::text_of(rays[k]);
+          ASSERT_TRUE(same_bits(hits.t[k], truths[k].t)) << test::text_of(rays[k]);
+          ASSERT_EQ(hidden[k] != 0, truths[k].found()) << test::text_of(rays[k]);
+        }
+
+        // The traversal by itself.
+        StickBlock block;
+        block.clear();
+        std::vector<ScaledRay> in_block;
+        for (const Ray& ray : rays)
+          if (is_valid(ray)) {
+            in_block.emplace_back(ray, spheres.scale());
+            block.add(in_block.back(), kInfinity);
+          }
+        struct Met final : StickBlockTests {
+          std::vector<std::uint64_t> near;
+          std::vector<StickRoots> roots;  // of 64 rays each
+          const SphereSet& spheres;
+          const StickSet& sticks;
+
+          Met(const SphereSet& of_spheres, const StickSet& of_sticks)
+              : near(std::size_t(of_sticks.size())), roots(64 * near.size()), spheres(of_spheres), sticks(of_sticks) {}
+          Stick stick(std::int64_t index) const override { return sticks.stored(spheres, index); }
+          void test(std::int64_t index, const Stick& tested, std::uint64_t rays_near,
+                    const StickBlockRoots& found) override {
+            EXPECT_TRUE(tested == stick(index));
+            near[std::size_t(index)] = rays_near;
+            for (std::size_t i = 0; i < 64 && found.has_side; ++i)
+              if ((rays_near >> i & 1) != 0) roots[64 * std::size_t(index) + i] = found.of_ray(i);
+          }
+        } met(spheres, sticks);
+        ++tried;
+        if (!traverse(tree, block, kPadOfSticks, met)) continue;
+        ++blocks;
+        for (std::int64_t k = 0; k < sticks.size(); ++k)
+          for (std::size_t lane = 0; lane < in_block.size(); ++lane) {
+            const Stick stick = sticks.stored(spheres, k);
+            const bool is_near = (met.near[std::size_t(k)] >> lane & 1) != 0;
+            if (stick_hit(StickRay{in_block[lane]}, stick).t < kInfinity) {
+              ASSERT_TRUE(is_near);
+              ++hits_in_blocks;
+            }
+            dropped += is_near ? 0 : 1;
+            const Vec3d axis = stick.b - stick.a;
+            const double widening = stick.radius_b - stick.radius_a;
+            if (!is_near || !(dot(axis, axis) - widening * widening > 0)) continue;
+            const StickRoots expected = stick_roots(in_block[lane], stick);
+            const StickRoots& found = met.roots[64 * std::size_t(k) + lane];
+            ASSERT_TRUE(same_bits(found.t_near, expected.t_near) && same_bits(found.t_far, expected.t_far) &&
+                        found.s_near == expected.s_near && found.s_far == expected.s_far);
+          }
+      }
+    }
+  }
+  ASSERT_TRUE(use_target("").ok());
+  EXPECT_GT(blocks, tried / 4);
+  EXPECT_GT(hits_in_blocks, 3000 / test::ray_share());
+  EXPECT_GT(dropped, hits_in_blocks);
 }
 
 // Copies of a set have the sticks, and the stubs, of a set that holds the copies.

@@ -179,10 +179,12 @@ struct StickPassage {
   bool enters, exits;
 };
 
-/// For the stick that the ray exits: no end counts if the ray goes outward, the farther one only if it goes inside. An
-/// end on a ball at the stick's end counts as one of that ball; and a ray that exits this ball outward, from where its
-/// surface is that of the stick, exits the stick too.
-inline StickPassage stick_passage(const StickRay& of, const Stick& stick) {
+/// Where roots_of_line() gives the stick's roots, which are asked for at most once. For the stick that the ray exits:
+/// no end counts if the ray goes outward, the farther one only if it goes inside. An end on a ball at the stick's end
+/// counts as one of that ball; and a ray that exits this ball outward, from where its surface is that of the stick,
+/// exits the stick too.
+template <class Roots>
+StickPassage stick_passage(const StickRay& of, const Stick& stick, const Roots& roots_of_line) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr StickPassage none{{nan, nan, nan, nan}, false, false};
   const ScaledRay& ray = of.ray;
@@ -195,18 +197,34 @@ inline StickPassage stick_passage(const StickRay& of, const Stick& stick) {
     if (leaves_a && dot(ray.origin - stick.a, axis) + stick.radius_a * widening <= 0) return none;
     if (leaves_b && dot(ray.origin - stick.b, axis) + stick.radius_b * widening >= 0) return none;
   }
-  const StickRoots roots = stick_roots(ray, stick);
+  const StickRoots roots = roots_of_line();
   const auto on_left_ball = [&](double s) { return (s == 0 && leaves_a) || (s == 1 && leaves_b); };
   return {roots, !own && !on_left_ball(roots.s_near), ray.inside || !on_left_ball(roots.s_far)};
 }
 
-/// The nearer end if it lies in the segment, else the farther one, as for spheres.
-inline StickHit stick_hit(const StickRay& of, const Stick& stick) {
-  const auto [roots, enters, exits] = stick_passage(of, stick);
+inline StickPassage stick_passage(const StickRay& of, const Stick& stick) {
+  return stick_passage(of, stick, [&] { return stick_roots(of.ray, stick); });
+}
+
+namespace stick_detail {
+
+inline StickHit hit_of(const StickRay& of, const StickPassage& passage) {
+  const auto& [roots, enters, exits] = passage;
   const auto in_segment = [&](double t) { return t >= of.ray.t_min && t <= of.ray.t_max; };
   if (in_segment(roots.t_near) && enters) return {roots.t_near, roots.s_near};
   if (in_segment(roots.t_far) && exits) return {roots.t_far, roots.s_far};
   return {};
+}
+
+}  // namespace stick_detail
+
+/// The nearer end if it lies in the segment, else the farther one, as for spheres.
+inline StickHit stick_hit(const StickRay& of, const Stick& stick) {
+  return stick_detail::hit_of(of, stick_passage(of, stick));
+}
+/// The same where stick_roots() of the ray and the stick are known.
+inline StickHit stick_hit(const StickRay& of, const Stick& stick, const StickRoots& roots) {
+  return stick_detail::hit_of(of, stick_passage(of, stick, [&] { return roots; }));
 }
 
 }  // namespace bihive

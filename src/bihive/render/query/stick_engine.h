@@ -13,6 +13,7 @@
 #include "bihive/geometry/stick_set.h"
 #include "bihive/render/query/image_ranges.h"
 #include "bihive/render/query/ray_engine.h"
+#include "bihive/render/query/stick_block.h"
 #include "bihive/render/query/stick_tree.h"
 
 namespace bihive {
@@ -58,17 +59,39 @@ class StickEngine final : public RayEngine {
   }
   void closest_hits(const RaySpan& rays, RayOrder order, const HitSpan& hits) const override {
     engine_of_spheres_->closest_hits(of_spheres(rays), order, hits);
-    for (std::int64_t i = 0; i < rays.count; ++i) {
+    const auto one = [&](std::int64_t i) {
       Nearest nearest{*this, false, {hits.t[i], hits.sphere_id[i]}};
       traverse_sticks(rays.at(i), nearest);
       hits.t[i] = nearest.best.t;
       hits.sphere_id[i] = nearest.best.sphere_id;
+    };
+    if (!takes_blocks(order)) {
+      for (std::int64_t i = 0; i < rays.count; ++i) one(i);
+      return;
+    }
+    Block block(*this, /*any_hit=*/false);
+    for (std::int64_t first = 0; first < rays.count; first += StickBlock::kRays) {
+      const std::int64_t end = std::min(first + StickBlock::kRays, rays.count);
+      block.clear();
+      for (std::int64_t i = first; i < end; ++i) block.add(i, rays.at(i), {hits.t[i], hits.sphere_id[i]});
+      block.trace([&](std::int64_t i, Hit best) { hits.t[i] = best.t, hits.sphere_id[i] = best.sphere_id; }, one);
     }
   }
   void occluded(const RaySpan& rays, RayOrder order, std::uint8_t* is_occluded) const override {
     engine_of_spheres_->occluded(of_spheres(rays), order, is_occluded);
-    for (std::int64_t i = 0; i < rays.count; ++i)
-      if (is_occluded[i] == 0 && meets_stick(rays.at(i))) is_occluded[i] = 1;
+    const auto one = [&](std::int64_t i) { is_occluded[i] = is_occluded[i] != 0 || meets_stick(rays.at(i)) ? 1 : 0; };
+    if (!takes_blocks(order)) {
+      for (std::int64_t i = 0; i < rays.count; ++i) one(i);
+      return;
+    }
+    Block block(*this, /*any_hit=*/true);
+    for (std::int64_t first = 0; first < rays.count; first += StickBlock::kRays) {
+      const std::int64_t end = std::min(first + StickBlock::kRays, rays.count);
+      block.clear();
+      for (std::int64_t i = first; i < end; ++i)
+        if (is_occluded[i] == 0) block.add(i, rays.at(i), {});
+      block.trace([&](std::int64_t i, Hit best) { is_occluded[i] = best.found() ? 1 : 0; }, one);
+    }
   }
   void all_hits(const RaySpan& rays, RayOrder order, std::vector<RayHit>& found) const override {
     engine_of_spheres_->all_hits(of_spheres(rays), order, found);
@@ -173,6 +196,74 @@ class StickEngine final : public RayEngine {
       return of_image.ended;
     }
   };
+
+  // Neighbouring rays of a call, which meet the tree together: the closest hit of each, or any. There are neither
+  // copies nor cuts.
+  class Block final : public StickBlockTests {
+   public:
+    Block(const StickEngine& engine, bool any_hit) : engine_(engine), any_hit_(any_hit) {
+      rays_.reserve(StickBlock::kRays);
+    }
+
+    void clear() { rays_.clear(); }
+    /// Ray `number` of the call, and its hit so far. An invalid ray is left out.
+    void add(std::int64_t number, const Ray& ray, Hit best) {
+      if (!is_valid(ray)) return;
+      const std::size_t i = rays_.size();
+      rays_.push_back(stick_ray(ray, engine_.spheres_, engine_.sticks_));
+      number_[i] = number;
+      best_[i] = best;
+    }
+    /// Calls take(number, hit) for each ray, after block or run was traced, or one(number) where they do not suit.
+    template <class Take, class One>
+    void trace(const Take& take, const One& one) {
+      if (trace_part(0, rays_.size(), take)) return;
+      for (std::size_t first = 0; first < rays_.size(); first += kRun) {
+        const std::size_t end = std::min(first + kRun, rays_.size());
+        if (trace_part(first, end, take)) continue;
+        for (std::size_t i = first; i < end; ++i) one(number_[i]);
+      }
+    }
+
+    Stick stick(std::int64_t index) const override {
+      return engine_.sticks_.stored(engine_.spheres_, number_of(index));
+    }
+    void test(std::int64_t index, const Stick& stick, std::uint64_t near, const StickBlockRoots& roots) override {
+      for (; near != 0; near &= near - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctzll(near));
+        const std::size_t i = first_ + lane;
+        const StickHit hit =
+            roots.has_side ? stick_hit(rays_[i], stick, roots.of_ray(lane)) : stick_hit(rays_[i], stick);
+        best_[i].keep_nearer(hit.t, engine_.id_of(number_of(index), hit));
+        if (best_[i].found()) block_.t_end[lane] = any_hit_ ? -std::numeric_limits<double>::infinity() : best_[i].t;
+      }
+    }
+
+   private:
+    static constexpr std::size_t kRun = 16;
+
+    template <class Take>
+    bool trace_part(std::size_t first, std::size_t end, const Take& take) {
+      block_.clear();
+      first_ = first;
+      for (std::size_t i = first; i < end; ++i) block_.add(rays_[i].ray, best_[i].t);
+      if (!traverse(engine_.wide_tree_, block_, kPadOfSticks, *this)) return false;
+      for (std::size_t i = first; i < end; ++i) take(number_[i], best_[i]);
+      return true;
+    }
+    std::int64_t number_of(std::int64_t index) const { return engine_.numbers_[static_cast<std::size_t>(index)]; }
+
+    const StickEngine& engine_;
+    bool any_hit_;
+    StickBlock block_;
+    std::size_t first_ = 0;  // ray in lane 0
+    std::vector<StickRay> rays_;
+    std::int64_t number_[StickBlock::kRays];  // NOLINT: written before read
+    Hit best_[StickBlock::kRays];
+  };
+  bool takes_blocks(RayOrder order) const {
+    return by_vectors_ && order == RayOrder::blocks && cuts_ == nullptr && !spheres_.has_images() && !numbers_.empty();
+  }
 
   // `ray` as the boxes see it.
   template <class Answer>

@@ -139,7 +139,15 @@ class Collapse {
 }  // namespace
 
 StickTree::StickTree(const std::vector<Aabb>& boxes, const Tree& tree) {
-  if (!boxes.empty()) levels_ = Collapse(boxes, tree, nodes_).run();
+  if (boxes.empty()) return;
+  levels_ = Collapse(boxes, tree, nodes_).run();
+  double sum = 0;
+  for (const Aabb& box : boxes) {
+    box_.add(box);
+    const Vec3d size = to_double(box.hi) - to_double(box.lo);
+    sum += std::max({size.x, size.y, size.z});
+  }
+  mean_extent_ = sum / static_cast<double>(boxes.size());
 }
 
 }  // namespace bihive

@@ -29,11 +29,16 @@ class StickTree {
 
   /// nodes()[0] is the root; without sticks there is none.
   const std::vector<StickNode>& nodes() const { return nodes_; }
+  /// Around all sticks, and the mean of the longest sides of their own boxes.
+  const Aabb& box() const { return box_; }
+  double mean_extent() const { return mean_extent_; }
   /// From the root to the deepest node.
   int levels() const { return levels_; }
 
  private:
   std::vector<StickNode> nodes_;
+  Aabb box_;
+  double mean_extent_ = 0;
   int levels_ = 0;
 };
 

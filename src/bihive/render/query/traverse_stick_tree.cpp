@@ -8,42 +8,78 @@
 #include <cstdint>
 #include <vector>
 
-#include "bihive/render/query/lanes-inl.h"
 #include "bihive/render/query/stick_tree.h"
 #include "bihive/simd/dispatch.h"
+#include "bihive/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A ray's distances to planes across an axis: plane * inverse + offset. Planes are moved outward by the pad of Slabs
-// (bih/traversal.h), which is many times the rounding here.
-struct SlabOfRay {
-  double inverse, near_offset, far_offset;
-  bool is_backward;
+// A ray in binary32, from where it enters the box around all sticks on: it starts at s = 0, and the largest part of its
+// direction is 1. So all numbers are small, whatever the units, and planes moved outward by the pad (below) are moved
+// by more than binary32 rounds.
+struct LocalRay {
+  double t_begin;                                   // where s is 0
+  double s_of_t;                                    // s per t
+  float inverse[3], near_offset[3], far_offset[3];  // distance to a plane: plane * inverse + offset
+  bool is_backward[3];
 
-  SlabOfRay(double origin, double direction, double pad) : is_backward(std::signbit(direction)) {
-    // Along a plane: so long that all planes but those within the pad are beyond any segment's end.
-    constexpr double kAlongPlane = 0x1p500;
-    inverse = direction == 0 ? std::copysign(kAlongPlane, direction) : 1 / direction;
-    const double outward = is_backward ? -pad : pad;
-    near_offset = -(origin + outward) * inverse;
-    far_offset = -(origin - outward) * inverse;
+  float s(double t) const {
+    // Rounded up by more than the distances may be wrong: four roundings.
+    constexpr double kMost = 0x1p40;
+    return static_cast<float>(std::min((t - t_begin) * s_of_t * (1 + 0x1p-20), kMost));
   }
 };
 
+// False: the ray misses the box up to `limit`.
+HWY_INLINE bool make_local(const Aabb& box, const ScaledRay& ray, double pad, double limit, LocalRay& local) {
+  double in = ray.t_min, out = std::min(ray.t_max, limit), largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double direction = ray.direction[axis];
+    largest = std::max(largest, std::abs(direction));
+    const double low = box.lo[axis] - pad - ray.origin[axis], high = box.hi[axis] + pad - ray.origin[axis];
+    if (direction == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    in = std::max(in, (direction > 0 ? low : high) / direction);
+    out = std::min(out, (direction > 0 ? high : low) / direction);
+  }
+  if (!(in <= out)) return false;
+  local.t_begin = in;
+  local.s_of_t = largest;
+  for (int axis = 0; axis < 3; ++axis) {
+    // A ray that goes along a plane stays beside it: within the box it moves by less than the pad.
+    constexpr double kAlongPlane = 0x1p-40;
+    const double direction = ray.direction[axis] / largest;
+    local.is_backward[axis] = std::signbit(direction);
+    const double inverse = 1 / (std::abs(direction) < kAlongPlane ? std::copysign(kAlongPlane, direction) : direction);
+    const double origin = ray.origin[axis] + in * ray.direction[axis];
+    const double outward = local.is_backward[axis] ? -pad : pad;
+    local.inverse[axis] = static_cast<float>(inverse);
+    local.near_offset[axis] = static_cast<float>(-(origin + outward) * inverse);
+    local.far_offset[axis] = static_cast<float>(-(origin - outward) * inverse);
+  }
+  return true;
+}
+
 void traverse_on_target(const StickTree& tree, const ScaledRay& ray, double more_pad, StickTests& tests) {
   if (tree.nodes().empty()) return;
+  // Beside what the boxes need, 2^-20: boxes end at 2, where a plane, an offset and their sum are rounded by 2^-23
+  // each.
   const double farthest = std::max({std::abs(ray.origin.x), std::abs(ray.origin.y), std::abs(ray.origin.z)}) + 2.0;
-  const double pad = 0x1p-24 + 0x1p-46 * farthest + more_pad;
-  const SlabOfRay slabs[3] = {
-      {ray.origin.x, ray.direction.x, pad}, {ray.origin.y, ray.direction.y, pad}, {ray.origin.z, ray.direction.z, pad}};
+  const double pad = 0x1p-20 + 0x1p-44 * farthest + more_pad;
+  LocalRay local;  // NOLINT: written before read
+  if (!make_local(tree.box(), ray, pad, tests.limit, local)) return;
+  double limit = std::min(ray.t_max, tests.limit);
+  float end = local.s(limit);
 
   // Each level leaves at most fifteen children waiting. Deep trees are rare.
   constexpr int kFewLevels = 48;
   struct Waiting {
-    double t;
+    float s;
     std::int32_t child;
   };
   Waiting of_few[kFewLevels * kStickWidth];  // NOLINT: written before read
@@ -55,23 +91,22 @@ void traverse_on_target(const StickTree& tree, const ScaledRay& ray, double more
   for (;;) {
     // Enter the node: which of the sixteen boxes does the ray enter, and where?
     const StickNode& node = tree.nodes()[static_cast<std::size_t>(at)];
-    alignas(64) double t_in[kStickWidth];
+    alignas(64) float s_in[kStickWidth];
     std::uint32_t entered = 0;
-    for (int lane = 0; lane < kStickWidth; lane += kLanes) {
-      Lanes in = all(ray.t_min), out = all(std::min(ray.t_max, tests.limit));
+    for (int lane = 0; lane < kStickWidth; lane += kFloatLanes) {
+      const FloatTag d;
+      Floats in = in_all(0), out = in_all(end);
       for (int axis = 0; axis < 3; ++axis) {
-        const SlabOfRay& slab = slabs[axis];
         const float* const lo = node.lo[axis] + lane;
         const float* const hi = node.hi[axis] + lane;
-        const Lanes near = hn::PromoteTo(Tag(), hn::LoadU(FloatHalf(), slab.is_backward ? hi : lo));
-        const Lanes far = hn::PromoteTo(Tag(), hn::LoadU(FloatHalf(), slab.is_backward ? lo : hi));
-        in = hn::Max(in, hn::MulAdd(near, all(slab.inverse), all(slab.near_offset)));
-        out = hn::Min(out, hn::MulAdd(far, all(slab.inverse), all(slab.far_offset)));
+        const Floats near = hn::Load(d, local.is_backward[axis] ? hi : lo);
+        const Floats far = hn::Load(d, local.is_backward[axis] ? lo : hi);
+        const Floats inverse = in_all(local.inverse[axis]);
+        in = hn::Max(in, hn::MulAdd(near, inverse, in_all(local.near_offset[axis])));
+        out = hn::Min(out, hn::MulAdd(far, inverse, in_all(local.far_offset[axis])));
       }
-      hn::StoreU(in, Tag(), t_in + lane);
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(Tag(), hn::Le(in, out), bits);
-      entered |= static_cast<std::uint32_t>(bits[0]) << lane;
+      hn::Store(in, d, s_in + lane);
+      entered |= mask_bits(hn::Le(in, hn::Mul(out, in_all(1 + 0x1p-20F)))) << lane;
     }
 
     // They wait, the nearest on top.
@@ -79,18 +114,22 @@ void traverse_on_target(const StickTree& tree, const ScaledRay& ray, double more
     for (; entered != 0; entered &= entered - 1) {
       const int slot = __builtin_ctz(entered);
       int place = count++;
-      for (; place > first && waiting[place - 1].t < t_in[slot]; --place) waiting[place] = waiting[place - 1];
-      waiting[place] = {t_in[slot], node.child[slot]};
+      for (; place > first && waiting[place - 1].s < s_in[slot]; --place) waiting[place] = waiting[place - 1];
+      waiting[place] = {s_in[slot], node.child[slot]};
     }
 
     // Take the next one that may matter; at the limit itself it may hold a smaller id.
     for (;;) {
       if (count == 0) return;
       const Waiting next = waiting[--count];
-      if (next.t > tests.limit) continue;
+      if (next.s > end) continue;
       at = next.child;
       if (at >= 0) break;
       if (tests.test(std::int64_t{~at})) return;
+      if (tests.limit < limit) {
+        limit = tests.limit;
+        end = local.s(limit);
+      }
     }
   }
 }
