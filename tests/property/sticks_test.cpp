@@ -446,7 +446,7 @@ TEST(Sticks, NeighbouringRaysMeetTheirSticksTogether) {
     const StickSet sticks = chain_of(spheres, 0x1p-5 * spheres.inverse_scale(), rng);
     std::vector<Aabb> boxes;
     for (std::int64_t k = 0; k < sticks.size(); ++k) boxes.push_back(sticks.stored_box(spheres, k));
-    const StickTree tree(boxes, build_reference_tree(boxes, {2, kUnlimited}));
+    const StickTree tree(boxes);
     const auto of_spheres = std::make_shared<ReferenceEngine>(
         spheres, std::make_shared<const Tree>(build_reference_tree(spheres, BuildParameters())));
     const StickEngine engine(spheres, sticks, of_spheres, nullptr, /*by_vectors=*/true);

@@ -41,12 +41,10 @@ class StickEngine final : public RayEngine {
     std::vector<Aabb> boxes;
     boxes.reserve(numbers_.size());
     for (const std::int32_t stick : numbers_) boxes.push_back(sticks.stored_box(spheres, stick));
-    tree_ = build_reference_tree(boxes, {kSticksOfLeaf, kUnlimited});
-    if (!by_vectors) return;
-    wide_tree_ = StickTree(boxes, tree_);
-    Tree alone;  // the box around all
-    alone.aabb = tree_.aabb;
-    tree_ = std::move(alone);
+    if (by_vectors)
+      wide_tree_ = StickTree(boxes);
+    else
+      tree_ = build_reference_tree(boxes, {kSticksOfLeaf, kUnlimited});
   }
 
   Hit closest_hit(const Ray& ray) const override {
@@ -300,7 +298,8 @@ class StickEngine final : public RayEngine {
       return;
     }
     EachImage<Answer> each{*this, answer};
-    const ImageBox box{to_double(tree_.aabb.lo), to_double(tree_.aabb.hi)};
+    const Aabb& around = by_vectors_ ? wide_tree_.box() : tree_.aabb;
+    const ImageBox box{to_double(around.lo), to_double(around.hi)};
     visit_image_boxes(spheres_.images(), spheres_.scale(), box, answer.ray.ray, each);
   }
   bool meets_stick(const Ray& ray) const {
@@ -337,8 +336,8 @@ class StickEngine final : public RayEngine {
   std::shared_ptr<const RayEngine> engine_of_spheres_;
   std::shared_ptr<const CutSet> cuts_;
   bool by_vectors_;
-  Tree tree_;  // over the sticks; where `wide_tree_` has nodes, only the box around all of them
-  StickTree wide_tree_;
+  Tree tree_;            // over the sticks,
+  StickTree wide_tree_;  // or this one
 };
 
 }  // namespace bihive

@@ -3,20 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
-
-#include "bihive/base/check.h"
+#include <limits>
 
 namespace bihive {
 namespace {
 
-// An inner node of the binary tree, or sticks that lie side by side in its leaves.
-struct Branch {
-  std::int64_t node = -1;  // below 0: sticks
-  std::int64_t first = 0, count = 0;
+struct BoxOfStick {
+  Aabb box;
+  std::int32_t stick;
+
+  float twice_middle(int axis) const { return box.lo[axis] + box.hi[axis]; }
+};
+
+// Sticks that lie side by side in the array.
+struct Range {
+  std::size_t begin = 0, end = 0;
   Aabb box;
 
-  bool is_stick() const { return node < 0 && count == 1; }
+  std::size_t size() const { return end - begin; }
 };
 
 double half_surface(const Aabb& box) {
@@ -24,52 +28,40 @@ double half_surface(const Aabb& box) {
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-class Collapse {
+class Builder {
  public:
-  Collapse(const std::vector<Aabb>& boxes, const Tree& tree, std::vector<StickNode>& nodes)
-      : boxes_(boxes), tree_(tree), nodes_(nodes) {
-    // Fit the boxes of the binary tree. Children come after their parent.
-    fitted_.resize(tree.nodes.size());
-    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-      const Node& node = tree.nodes[i];
-      if (node.is_leaf()) {
-        fitted_[i] = box_of(node.first_sphere(), node.sphere_count);
-        continue;
-      }
-      BIHIVE_CHECK(node.first > static_cast<std::int64_t>(i));
-      fitted_[i] = fitted_[static_cast<std::size_t>(node.first)];
-      if (node.kind == NodeKind::split) fitted_[i].add(fitted_[static_cast<std::size_t>(node.right_child())]);
-    }
+  Builder(const std::vector<Aabb>& boxes, std::vector<StickNode>& nodes) : nodes_(nodes) {
+    sticks_.reserve(boxes.size());
+    for (const Aabb& box : boxes) sticks_.push_back({box, static_cast<std::int32_t>(sticks_.size())});
   }
 
   // Returns the number of levels.
-  int run() {
+  int run(const Aabb& whole) {
     struct Pending {
       std::size_t number;
       int level;
-      Branch branch;
+      Range range;
     };
     int levels = 0;
     nodes_.emplace_back();
-    std::vector<Pending> pending{{0, 1, branch_of(0)}};
+    std::vector<Pending> pending{{0, 1, {0, sticks_.size(), whole}}};
     while (!pending.empty()) {
-      const auto [number, level, branch] = pending.back();
+      const auto [number, level, range] = pending.back();
       pending.pop_back();
       levels = std::max(levels, level);
-      collect(branch);
+      divide(range);
       StickNode made;
       for (std::size_t slot = 0; slot < kStickWidth; ++slot) {
-        const bool is_used = slot < count_;
-        const Aabb box = is_used ? children_[slot].box : Aabb();
+        const Aabb box = slot < count_ ? children_[slot].box : Aabb();
         for (int axis = 0; axis < 3; ++axis) {
           made.lo[axis][slot] = box.lo[axis];
           made.hi[axis][slot] = box.hi[axis];
         }
         made.child[slot] = 0;
-        if (!is_used) continue;
-        const Branch& child = children_[slot];
-        if (child.is_stick()) {
-          made.child[slot] = ~static_cast<std::int32_t>(stick(child.first));
+        if (slot >= count_) continue;
+        const Range& child = children_[slot];
+        if (child.size() == 1) {
+          made.child[slot] = ~sticks_[child.begin].stick;
         } else {
           made.child[slot] = static_cast<std::int32_t>(nodes_.size());
           pending.push_back({nodes_.size(), level + 1, child});
@@ -82,65 +74,63 @@ class Collapse {
   }
 
  private:
-  std::int64_t stick(std::int64_t place) const { return tree_.sphere_ids[static_cast<std::size_t>(place)]; }
-
-  Aabb box_of(std::int64_t first, std::int64_t count) const {
-    Aabb box;
-    for (std::int64_t i = first; i < first + count; ++i) box.add(boxes_[static_cast<std::size_t>(stick(i))]);
-    return box;
-  }
-
-  Branch branch_of(std::int64_t position) const {
-    const Node* node = &tree_.nodes[static_cast<std::size_t>(position)];
-    while (!node->is_leaf() && node->kind != NodeKind::split) {
-      position = node->first;
-      node = &tree_.nodes[static_cast<std::size_t>(position)];
-    }
-    const Aabb& box = fitted_[static_cast<std::size_t>(position)];
-    if (node->is_leaf()) return {-1, node->first_sphere(), node->sphere_count, box};
-    return {position, 0, 0, box};
-  }
-
-  std::pair<Branch, Branch> parts_of(const Branch& branch) const {
-    if (branch.node >= 0) {
-      const Node& node = tree_.nodes[static_cast<std::size_t>(branch.node)];
-      return {branch_of(node.first), branch_of(node.right_child())};
-    }
-    const std::int64_t half = branch.count / 2, middle = branch.first + half;
-    return {{-1, branch.first, half, box_of(branch.first, half)},
-            {-1, middle, branch.count - half, box_of(middle, branch.count - half)}};
-  }
-
-  // The children of a node: the branch with the largest surface is divided until all slots are full.
-  void collect(const Branch& branch) {
-    children_[0] = branch;
+  // The children of a node: the range with the largest surface is halved until all slots are full.
+  void divide(const Range& range) {
+    children_[0] = range;
     count_ = 1;
     while (count_ < kStickWidth) {
       std::size_t largest = count_;
-      for (std::size_t i = 0; i < count_; ++i)
-        if (!children_[i].is_stick() &&
-            (largest == count_ || half_surface(children_[i].box) > half_surface(children_[largest].box)))
-          largest = i;
+      double most = -1;
+      for (std::size_t i = 0; i < count_; ++i) {
+        if (children_[i].size() == 1) continue;
+        const double surface = half_surface(children_[i].box);
+        if (surface > most) most = surface, largest = i;
+      }
       if (largest == count_) return;
-      auto [one, other] = parts_of(children_[largest]);
-      children_[largest] = one;
-      children_[count_++] = other;
+      children_[count_++] = halve(children_[largest]);
     }
   }
 
-  const std::vector<Aabb>& boxes_;
-  const Tree& tree_;
+  // In space, between the middles of the sticks, or by count where they share one. Returns the upper half; `range`
+  // becomes the lower one.
+  Range halve(Range& range) {
+    const auto begin = sticks_.begin() + static_cast<std::ptrdiff_t>(range.begin);
+    const auto end = sticks_.begin() + static_cast<std::ptrdiff_t>(range.end);
+    Vec3f low, high;
+    low.x = low.y = low.z = std::numeric_limits<float>::infinity();
+    high = -low;
+    for (auto one = begin; one != end; ++one)
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], one->twice_middle(axis));
+        high[axis] = std::max(high[axis], one->twice_middle(axis));
+      }
+    int longest = 0;
+    for (int axis = 1; axis < 3; ++axis)
+      if (high[axis] - low[axis] > high[longest] - low[longest]) longest = axis;
+    const float middle = 0.5F * low[longest] + 0.5F * high[longest];
+    auto split = std::partition(begin, end, [&](const BoxOfStick& one) { return one.twice_middle(longest) < middle; });
+    if (split == begin || split == end) split = begin + (end - begin) / 2;
+
+    const auto box_of = [](auto first, auto last) {
+      Aabb box;
+      for (; first != last; ++first) box.add(first->box);
+      return box;
+    };
+    const Range upper{static_cast<std::size_t>(split - sticks_.begin()), range.end, box_of(split, end)};
+    range = {range.begin, upper.begin, box_of(begin, split)};
+    return upper;
+  }
+
+  std::vector<BoxOfStick> sticks_;
   std::vector<StickNode>& nodes_;
-  std::vector<Aabb> fitted_;
-  std::array<Branch, kStickWidth> children_;
+  std::array<Range, kStickWidth> children_;
   std::size_t count_ = 0;
 };
 
 }  // namespace
 
-StickTree::StickTree(const std::vector<Aabb>& boxes, const Tree& tree) {
+StickTree::StickTree(const std::vector<Aabb>& boxes) {
   if (boxes.empty()) return;
-  levels_ = Collapse(boxes, tree, nodes_).run();
   double sum = 0;
   for (const Aabb& box : boxes) {
     box_.add(box);
@@ -148,6 +138,7 @@ StickTree::StickTree(const std::vector<Aabb>& boxes, const Tree& tree) {
     sum += std::max({size.x, size.y, size.z});
   }
   mean_extent_ = sum / static_cast<double>(boxes.size());
+  levels_ = Builder(boxes, nodes_).run(box_);
 }
 
 }  // namespace bihive

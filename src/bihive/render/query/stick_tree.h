@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "bihive/bih/tree.h"
 #include "bihive/geometry/scaled_ray.h"
 #include "bihive/math/aabb.h"
 
@@ -23,9 +22,8 @@ struct alignas(64) StickNode {
 class StickTree {
  public:
   StickTree() = default;
-  /// `tree`: build_reference_tree() of these boxes, of which there are fewer than 2^31. It is collapsed sixteen wide,
-  /// with a box of its own for every stick. std::bad_alloc: there is not enough memory.
-  StickTree(const std::vector<Aabb>& boxes, const Tree& tree);
+  /// Of fewer than 2^31 boxes, each of which is a stick's own. std::bad_alloc: there is not enough memory.
+  explicit StickTree(const std::vector<Aabb>& boxes);
 
   /// nodes()[0] is the root; without sticks there is none.
   const std::vector<StickNode>& nodes() const { return nodes_; }
