@@ -55,7 +55,8 @@ struct Tuning {
 /// Builds the structure with max_prims from 1 to 64, and those that need the least time by counted work with fewer
 /// levels too. The costs of its steps come from a calibration of about 50 ms. Then rounds in turn, of about 10 ms each,
 /// until half of the candidates remain, and so on to the last one: successive halving. Counts do not depend on the
-/// machine, the choice does. Errors: an unknown structure, one without parameters, or one that cannot be built.
+/// machine, the choice does. Errors: an unknown structure, one without parameters, or one that cannot be built. A Watch
+/// of the thread (base/watch.h) hears of the progress, and ends the search between two builds or rounds.
 Result<Tuning> tune_structure(const Scene& scene, const TuneOptions& options);
 
 }  // namespace bihive::workbench
