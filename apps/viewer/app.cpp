@@ -383,7 +383,7 @@ Layout App::layout() const {
   const ImVec2 display{static_cast<float>(pixels.width) / per_unit, static_cast<float>(pixels.height) / per_unit};
   Layout now = cards_.layout(display, window_->text_scale(), per_unit, controls_shown_);
   if (reader_ && player_bar_is_wide(now.picture.x, window_->text_scale()))
-    now.lower -= player_bar_height(window_->text_scale());
+    now.lower -= player_bar_height(now.picture.x, window_->text_scale());
   return now;
 }
 

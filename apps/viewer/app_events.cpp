@@ -260,7 +260,7 @@ void App::on_cursor(double x, double y) {
   if (dx == 0 && dy == 0) return;
   tip_.reset();
   rests_since_ms_.reset();
-  if (drag_ == Drag::none && over_picture()) rests_since_ms_ = 1000 * glfwGetTime();
+  if (drag_ == Drag::none && over_picture() && request_.screenshot.empty()) rests_since_ms_ = 1000 * glfwGetTime();
   if (std::hypot(x - down_x_, y - down_y_) > kMostClick) may_be_click_ = false;
   if (drag_ != Drag::none) framed_ = false;
   if (drag_ == Drag::orbit) viewer_.orbit(dx, dy);

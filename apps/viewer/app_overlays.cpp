@@ -68,7 +68,7 @@ void App::draw_message(const Layout& layout) {
   const std::string text = file_to_open_ ? "opening " + *file_to_open_ : message_;
   if (text.empty()) return;
   const float margin = kMargin * layout.scale;
-  const float bar = reader_ ? player_bar_height(layout.scale) : 0;
+  const float bar = reader_ ? player_bar_height(layout.picture.x, layout.scale) : 0;
   const float width = std::min(layout.display.x - 2 * margin, 1.6F * kMostWidth * layout.scale);
   begin_overlay("message", {layout.display.x / 2, layout.picture.y - bar - margin}, {0.5F, 1}, width);
   ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
@@ -92,7 +92,7 @@ void App::draw_work(const Layout& layout) {
 
 void App::draw_welcome(const Layout& layout, CardRequests& requests) {
   const float margin = kMargin * layout.scale;
-  const float width = std::min(layout.display.x - 2 * margin, kMostWidth * layout.scale);
+  const float width = std::min(layout.display.x - 2 * margin, 1.2F * kMostWidth * layout.scale);
   begin_overlay("welcome", {layout.display.x / 2, layout.picture.y - margin}, {0.5F, 1}, width);
   ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
   ImGui::TextUnformatted("Drop a file of atoms or points here, or look at one of these:");

@@ -139,7 +139,7 @@ bool Cards::draw_style(const Viewer& viewer, ViewerSettings& settings, ViewerLoo
       if (column++ % 2 != 0) ImGui::SameLine();
       const bool is_chosen =
           look.style == value || (look.style.empty() && facts.is_file_of_spheres && value == "default");
-      if (is_chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(kAccent.x, kAccent.y, kAccent.z, 0.55F));
+      if (is_chosen) ImGui::PushStyleColor(ImGuiCol_Button, kChosen);
       if (ImGui::Button(name.c_str(), {across, 0})) look.style = value;
       if (is_chosen) ImGui::PopStyleColor();
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help.c_str());

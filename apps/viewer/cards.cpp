@@ -21,6 +21,7 @@ constexpr float kNarrow = 520, kNarrowUpright = 760;  // as the page has them (w
 constexpr float kBarOfNarrow = 48;
 constexpr float kLeastSheet = 200, kMostSheet = 430, kShareOfSheet = 0.44F;
 constexpr double kZoomOfButton = 1.25;
+const ImVec4 kGround{kPanel.x, kPanel.y, kPanel.z, 0.8F};  // of the axes
 
 bool is_stay(const std::string& card) {
   return card == "measure" || card == "show" || card == "cut";  // beside which the picture is clicked
@@ -113,7 +114,7 @@ void Cards::changed(const Viewer& viewer, bool other_spheres) {
 bool Cards::card_button(const Card& card, float width, const std::string& input) {
   const std::string id(card.id);
   const bool is_open = open_ == id;
-  if (is_open) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(kAccent.x, kAccent.y, kAccent.z, 0.55F));
+  if (is_open) ImGui::PushStyleColor(ImGuiCol_Button, kChosen);
   const bool clicked = ImGui::Button(std::string(card.title).c_str(), {width, 0});
   if (is_open) ImGui::PopStyleColor();
   if (!clicked) return false;
@@ -166,6 +167,7 @@ void Cards::draw_chip(const Viewer& viewer, const Layout& layout, const std::str
   const std::string name = elided(whole, has_more ? room - wide - space : room);
 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   ImGui::SetNextWindowPos({margin, is_below ? kButtons * layout.scale : margin});
   ImGui::SetNextWindowBgAlpha(0.88F);
   ImGui::Begin("chip", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize);
@@ -186,13 +188,13 @@ void Cards::draw_chip(const Viewer& viewer, const Layout& layout, const std::str
   list.AddText({corner.x + padding, y}, ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
   if (has_more) list.AddText({corner.x + padding + name_wide + space, y}, ImGui::GetColorU32(kDim), more.c_str());
   ImGui::End();
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
 }
 
 // Closer, farther, all of it, and the directions of x, y and z.
 void Cards::draw_zoom(const Viewer& viewer, const Layout& layout, CardRequests& requests, Covered& covered) {
-  const float margin = kMargin * layout.scale, side = 1.35F * ImGui::GetFrameHeight(), axes = 1.9F * side;
-  const float width = std::max(side, ImGui::CalcTextSize("Home").x + 2 * ImGui::GetStyle().FramePadding.x);
+  const float margin = kMargin * layout.scale, side = 1.35F * ImGui::GetFrameHeight(), axes = 1.7F * side;
+  const float width = std::max(axes, ImGui::CalcTextSize("Home").x + 2 * ImGui::GetStyle().FramePadding.x);
   // A card of the whole height would reach them.
   const bool card_is_beside = !layout.is_narrow() && !open_.empty();
   const float right = layout.display.x - margin - (card_is_beside ? kCardWidth * layout.scale + margin : 0);
@@ -208,6 +210,7 @@ void Cards::draw_zoom(const Viewer& viewer, const Layout& layout, CardRequests& 
   if (layout.picture.y > 8 * side) {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), middle{corner.x + width / 2, corner.y + axes / 2};
     ImGui::Dummy({width, axes});
+    ImGui::GetWindowDrawList()->AddCircleFilled(middle, 0.46F * axes, ImGui::GetColorU32(kGround));
     // Steps in pixels of a picture of one pixel: shares of the shorter side.
     const Camera camera = with_projection(viewer.settings().camera, Projection::orthographic);
     const PixelPlaces places(camera, 1, 1);

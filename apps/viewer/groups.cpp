@@ -49,7 +49,8 @@ void Groups::update_legend(const Viewer& viewer) {
   has_legend_ = true;
   legend_.clear();
   colours_.clear();
-  for (const nlohmann::json& key : *json_from_text<nlohmann::json>(legend_to_json(viewer.scene()))) {
+  const auto keys = *json_from_text<nlohmann::json>(legend_to_json(viewer.scene()));
+  for (const nlohmann::json& key : keys) {
     Key one;
     one.title = key.at("title").get<std::string>();
     if (const nlohmann::json& scale = key.at("scale"); scale.is_object()) {

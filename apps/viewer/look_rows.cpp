@@ -15,6 +15,12 @@
 namespace bihive::window {
 namespace {
 
+// No selection means all spheres.
+bool same_selection(const std::string& a, const std::string& b) {
+  const auto is_all = [](const std::string& text) { return text.empty() || text == "all"; };
+  return a == b || (is_all(a) && is_all(b));
+}
+
 bool has_value(const std::string& action) {
   const LookActionText* const row = look_action_named(action);
   return row != nullptr && !row->value.empty();
@@ -135,12 +141,14 @@ void LookRows::draw(const SceneFacts& facts) {
 
 std::optional<std::string> LookRows::value(const std::string& select, const std::string& action) const {
   for (const EditedRow& one : rows_)
-    if (one.row.select == select && one.row.action == action) return one.row.value;
+    if (same_selection(one.row.select, select) && one.row.action == action) return one.row.value;
   return std::nullopt;
 }
 
 void LookRows::set(const std::string& select, const std::string& action, const std::optional<std::string>& value) {
-  const auto same = [&](const EditedRow& one) { return one.row.select == select && one.row.action == action; };
+  const auto same = [&](const EditedRow& one) {
+    return same_selection(one.row.select, select) && one.row.action == action;
+  };
   changed_ = true;
   if (!value) {
     std::erase_if(rows_, same);

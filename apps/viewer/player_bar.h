@@ -21,8 +21,8 @@ struct PlayerRequests {
   std::optional<bool> loops;
 };
 
-/// In ImGui's units.
-float player_bar_height(double text_scale);
+/// In ImGui's units, over a picture of that width: a small one has the time line in a row of its own.
+float player_bar_height(float picture_width, double text_scale);
 /// Whether it takes the whole width of a picture, so that nothing else can be at its lower border.
 bool player_bar_is_wide(float picture_width, double text_scale);
 

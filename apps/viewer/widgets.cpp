@@ -33,8 +33,10 @@ void heading(const char* text) {
 
 void label(const std::string& text) {
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + 0.38F * ImGui::GetWindowWidth());
+  const float begin = ImGui::GetWindowContentRegionMin().x + 0.38F * ImGui::GetWindowWidth();
+  const std::string shown = elided(text, begin - ImGui::GetCursorPosX() - ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::TextUnformatted(shown.c_str());
+  ImGui::SameLine(begin);
   ImGui::SetNextItemWidth(-1);
 }
 

@@ -161,7 +161,7 @@ class Window(ProgramTest):
         head = [row[right - CARD_PX * scale : right] for row in rows[CARD_TOP_PX * scale : (CARD_TOP_PX + 60) * scale]]
         pixels = [pixel for row in head for pixel in row]
         self.assertGreater(pixels.count(CARD_COLOUR) / len(pixels), 0.4)
-        self.assertGreater(sum(min(pixel) > 200 for pixel in pixels), 50, "text")
+        self.assertGreater(sum(min(pixel) > 200 for pixel in pixels), 25, "text")
 
     def test_the_cpu_shows_what_it_renders(self):
         window = self.window_of("demo", "--size", "620x420", "--engine", "cpu")
@@ -182,7 +182,7 @@ class Window(ProgramTest):
     def test_a_narrow_window_has_a_sheet_below(self):
         given = ["demo", "--style", "flat", "--samples", "1"]
         for engine, tolerance in (("cpu", 0), ("gpu", 0.01)):
-            for card, height in ((None, 640 - 48), ("style", 640 - 48 - 281)):
+            for card, height in ((None, 640 - 48), ("style", 310)):
                 rows = self.window_of(*given, "--size", "360x640", "--engine", engine, *(["--card", card] if card else []))
                 self.assertEqual((len(rows[0]), len(rows)), (360, 640))
                 shown, drawn = ([row[140:-80] for row in part[50:height]] for part in (rows, self.drawn(f"360x{height}", *given)))
@@ -192,7 +192,8 @@ class Window(ProgramTest):
 
     def test_a_search_keeps_the_bits(self):
         given = ["scenario2", "--count", "500", "--recursion", "2"]
-        self.assertTrue(self.screenshot(*given, "--tune", "--size", "620x300") == self.rendered("620x300", *given))
+        tuned = self.screenshot(*given, "--tune", "--size", "620x300")[:-60]  # a message is below
+        self.assertTrue(tuned == self.rendered("620x300", *given)[:-60])
 
     def test_styles_are_those_of_render(self):
         for style in ("studio", "flat"):
@@ -282,7 +283,7 @@ class Window(ProgramTest):
         self.assertIn("OpenGL 3.3", self.fail_with(3, "view", "demo", env=screen.environment()))
 
     def test_fine_pixels(self):
-        """A screen of 192 dots an inch: twice the pixels, with letters and panel twice as large."""
+        """A screen of 192 dots an inch: twice the pixels, with letters and cards twice as large."""
         screen = Screen(dpi=192)
         self.addCleanup(screen.end)
         arguments = ["view", "demo", "--size", "700x420", "--samples", "1", "--card", "cut", "--screenshot", "window.png"]
@@ -466,12 +467,12 @@ class Window(ProgramTest):
         self.fail(f"frame {frame} does not come")
 
     def test_a_look_of_a_selection(self):
-        """A row of the panel by pointer and keys: the button is below six lines of the panel. Nothing but the picture
-        says that the panel has taken a key, so a busy machine gets more time at the next attempt."""
+        """A row of the card "Show" by pointer and keys. Nothing but the picture says that the card has taken a key, so a
+        busy machine gets more time at the next attempt."""
         self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
         wanted = [{"select": "index 1", "action": "colour", "value": "orange"}]
         for pause_s in [0.3, 1, 4, 16]:
-            self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat")
+            self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat", "--card", "show")
             look = self.saved()["look"]
             self.assertEqual((look["style"], look["rows"]), ("flat", []))
             rows = self.rows_after_typing(pause_s)
@@ -483,7 +484,7 @@ class Window(ProgramTest):
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
     def rows_after_typing(self, pause_s):
-        """The rows of the saved picture; none if the panel missed a key, or takes S for a letter."""
+        """The rows of the saved picture; none if the card missed a key, or takes S for a letter."""
 
         def enter(x, y, text):
             self.tool("mousemove", "--window", self.window, str(x), str(y))
@@ -494,9 +495,9 @@ class Window(ProgramTest):
             self.press("Return")
             time.sleep(2 * pause_s)
 
-        enter(520, 216, "")  # add
-        enter(450, 216, "index 1")
-        enter(610, 244, "orange")
+        enter(512, 149, "")  # add
+        enter(430, 149, "index 1")
+        enter(600, 177, "orange")
         self.tool("mousemove", "--window", self.window, "100", "100")
         deadline = time.monotonic() + 10 * pause_s
         while time.monotonic() < deadline:
@@ -508,14 +509,14 @@ class Window(ProgramTest):
                 return rows
         return []
 
-    def test_a_title_by_the_panel(self):
-        """The group labels is opened by a click, and its first field gets a text. As above, a busy machine gets more
+    def test_a_title_by_a_card(self):
+        """The group labels of the card "Style" is opened by a click, and its first field gets a text. As above, a busy machine gets more
         time at the next attempt."""
         self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
         for pause_s in [0.3, 1, 4, 16]:
-            self.open_window("pair.csv", "--size", "700x700", "--samples", "1", "--style", "flat")
+            self.open_window("pair.csv", "--size", "700x700", "--samples", "1", "--style", "flat", "--card", "style")
             self.assertEqual(self.saved()["title"], "")
-            for y in (534, 562):
+            for y in (340, 369):
                 self.tool("mousemove", "--window", self.window, "600", str(y))
                 time.sleep(pause_s)
                 self.tool("click", "1")
@@ -602,8 +603,8 @@ class Window(ProgramTest):
         self.write("titled.xyz", "1\ntwo words\nC 0 0 0\n")
         os.mkdir(self.path("sub"))
         self.write("sub/one.xyz", "1\n\nC 0 0 0\n")
-        before = os.environ.get("HOME")
-        self.addCleanup(lambda: os.environ.update(HOME=before) if before else os.environ.pop("HOME"))
+        home = os.environ.get("HOME")
+        self.addCleanup(lambda: os.environ.update(HOME=home) if home else os.environ.pop("HOME"))
         os.environ["HOME"] = str(self.folder)
         self.open_window("four-spheres", "--size", "700x500", "--samples", "1")
         self.saved()
