@@ -118,7 +118,7 @@ void App::draw_welcome(const Layout& layout, CardRequests& requests) {
 void App::draw_help(const Layout& layout) {
   const float width = std::min(layout.display.x - 2 * kMargin * layout.scale, 1.3F * kMostWidth * layout.scale);
   ImGui::SetNextWindowFocus();
-  begin_overlay("help", {layout.display.x / 2, layout.display.y / 2}, {0.5F, 0.5F}, width);
+  begin_overlay("help", {layout.display.x / 2, (layout.display.y - layout.bar) / 2}, {0.5F, 0.5F}, width);
   ImGui::TextUnformatted("Mouse and keys");
   ImGui::SameLine(width - ImGui::GetFrameHeight() - ImGui::GetStyle().WindowPadding.x);
   if (ImGui::SmallButton("×")) help_shown_ = false;
