@@ -57,12 +57,20 @@ std::string name_of_scene(const SceneFacts& facts) {
 
 void Cards::show(const std::string& id, const std::string& shown_input) {
   open_ = id;
+  closes_in_ = 0;
   if (id == "open") file.begin(shown_input);
+}
+
+void Cards::close() {
+  open_.clear();
+  closes_in_ = 0;
 }
 
 bool Cards::dismiss(const Layout& layout) {
   if (open_.empty() || layout.is_narrow() || is_stay(open_)) return false;
-  close();
+  // The click ends a text that is being typed, which its field takes in one of the next frames.
+  constexpr int kFrames = 3;
+  closes_in_ = kFrames;
   return true;
 }
 
@@ -318,6 +326,7 @@ CardRequests Cards::draw(const Viewer& viewer, const FrameReport& report, const 
     show("show", input);
   draw_card(viewer, report, layout, input, requests, covered);
   draw_bar(layout, input, covered);
+  if (closes_in_ > 0 && --closes_in_ == 0) close();
   ViewerLook look = requests.look.value_or(viewer.look());
   rows.put_into(look);
   if (look != viewer.look()) requests.look = look;

@@ -58,7 +58,7 @@ class Cards {
   const std::string& open() const { return open_; }
   /// Opens a card of viewer/cards.h.
   void show(const std::string& id, const std::string& shown_input);
-  void close() { open_.clear(); }
+  void close();
   /// A click on the picture: closes a card beside which the picture is not clicked. True if it did.
   bool dismiss(const Layout& layout);
 
@@ -107,6 +107,7 @@ class Cards {
   bool draw_sections(std::string_view card, const Viewer& viewer, ViewerSettings& settings, ViewerLook& look);
 
   std::string open_;
+  int closes_in_ = 0;     // frames, above 0: after that many the open card closes
   bool is_tall_ = false;  // the sheet takes the whole window
   SectionControls controls_;
   Fields fields_;

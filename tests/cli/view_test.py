@@ -326,6 +326,13 @@ class Window(ProgramTest):
             self.tool("key", key)
             time.sleep(0.05)
 
+    def enter(self, text, pause_s):
+        """Types a text into the field that has been clicked. A key that goes down and up between two frames is lost."""
+        self.tool("type", "--delay", "50", text)
+        self.tool("keydown", "Return")
+        time.sleep(pause_s)
+        self.tool("keyup", "Return")
+
     def saved(self, patience_s=PATIENCE_S):
         """Presses S; the settings and the scene of the picture that is written."""
         before = set(os.listdir(self.folder))
@@ -491,8 +498,7 @@ class Window(ProgramTest):
             time.sleep(pause_s)
             self.tool("click", "1")
             time.sleep(2 * pause_s)
-            self.tool("type", "--delay", "50", text)
-            self.press("Return")
+            self.enter(text, pause_s)
             time.sleep(2 * pause_s)
 
         enter(512, 149, "")  # add
@@ -521,8 +527,7 @@ class Window(ProgramTest):
                 time.sleep(pause_s)
                 self.tool("click", "1")
                 time.sleep(2 * pause_s)
-            self.tool("type", "--delay", "50", "A pair")
-            self.press("Return")
+            self.enter("A pair", pause_s)
             self.tool("mousemove", "--window", self.window, "100", "100")
             time.sleep(2 * pause_s)
             try:
