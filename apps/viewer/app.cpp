@@ -478,6 +478,7 @@ void App::draw(const FrameReport& report, Image* screenshot) {
     texture_->draw({size.x / now.per_unit(), size.y / now.per_unit()});
   covered_.clear();
   CardRequests requests;
+  const std::string open = cards_.open();
   cards_.searches = search_ != nullptr;
   if (cards_.open() == "share") cards_.command = command(cards_.command_of);
   if (controls_shown_) requests = cards_.draw(viewer_, report, now, input_, covered_);
@@ -486,6 +487,7 @@ void App::draw(const FrameReport& report, Image* screenshot) {
   draw_overlays(now, requests);
   popup_open_ = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   window_->end_frame(screenshot);
+  if (open != cards_.open()) wake();
   follow(requests);
   follow(played);
 }

@@ -69,7 +69,7 @@ void Cards::close() {
 bool Cards::dismiss(const Layout& layout) {
   if (open_.empty() || layout.is_narrow() || is_stay(open_)) return false;
   // The click ends a text that is being typed, which its field takes in one of the next frames.
-  constexpr int kFrames = 3;
+  constexpr int kFrames = 2;
   closes_in_ = kFrames;
   return true;
 }

@@ -214,8 +214,8 @@ class Window(ProgramTest):
     def test_options_of_the_picture_and_of_the_file(self):
         self.write("two.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
         given = ["two.csv", "--view", "normal", "--view-from", "top", "--radius-scale", "1.5"]
-        picture = self.screenshot(*given, "--size", "500x200")
-        self.assertTrue(picture == self.rendered("500x200", *given), "the pixels differ")
+        picture = self.screenshot(*given, "--size", "620x200")
+        self.assertTrue(picture == self.rendered("620x200", *given), "the pixels differ")
 
     def test_effects_of_a_scene_file(self):
         """Ambient occlusion, fog, outlines, tone, lens, samples and labels of a file, as bihive render draws them."""
