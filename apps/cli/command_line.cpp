@@ -11,6 +11,7 @@
 #include "bihive/io/known_formats.h"
 #include "bihive/job/failure.h"
 #include "bihive/select/selection.h"
+#include "bihive/viewer/cards.h"
 #include "commands/names.h"
 #include "compare_options.h"
 #include "film/film_plan.h"
@@ -62,13 +63,14 @@ void add_trajectory(CLI::App& app, Request& request, bool alone = true) {
 }
 
 template <class Request>
-void add_input(CLI::App& app, Request& request, bool alone = true) {
+void add_input(CLI::App& app, Request& request, bool alone = true, bool required = true) {
   app.add_option("INPUT", input_of(request).input,
                  in_lines("A file (" + names_of_formats(FormatsThat::hold_spheres) +
                           ", or scene JSON) or a built-in name: scenario1, scenario2, scenario3, four-spheres, demo; "
-                          "- is the standard input"))
+                          "- is the standard input") +
+                     (required ? "" : " (demo)"))
       ->type_name("")
-      ->required();
+      ->required(required);
   add_trajectory(app, request, alone);
 }
 
@@ -247,10 +249,13 @@ void add_film(CLI::App& app, FilmOptions& options, Request& request, int argc, c
 }
 
 // The options of window and page.
-void add_options_to_show(CLI::App& command, ViewOptions& options, std::vector<std::string_view> without = {}) {
+void add_options_to_show(CLI::App& command, ViewOptions& options, bool of_page,
+                         std::vector<std::string_view> without = {}) {
   static const RequestOption<PictureRequest> samples = samples_option(kMostSamples);
   add_option_of<PictureRequest>(command, samples, options);
   without.insert(without.end(), {"size", "engine", "samples", "trajectory"});
+  for (const RequestOption<PictureRequest>& row : picture_options())
+    if (of_page && !row.in_page) without.push_back(row.id);
   for (const OptionTheme theme : {OptionTheme::style, OptionTheme::picture, OptionTheme::camera, OptionTheme::engine,
                                   OptionTheme::reading, OptionTheme::spheres, OptionTheme::labels})
     add_picture_options(command, theme, options, /*of_window=*/true, without);
@@ -261,10 +266,16 @@ void add_view(CLI::App& app, ViewOptions& options, Request& request) {
       add_command(app, "view", "Look at it in a window: turn it, switch views, engines and trees",
                   "bihive view data/1hpv.pdb --view-from left",
                   "bihive view scenario2 --engine gpu --max-prims 1 --view traversal", options, request);
-  add_input<PictureRequest>(command, options);
+  add_input<PictureRequest>(command, options, /*alone=*/true, /*required=*/false);
   add_value(command, "--size", options.size, "WxH", "The window (1280x800)", size_from);
   add_choice(command, "--engine", options.window_engine, kViewerEngines, "The engine (cpu)");
-  add_options_to_show(command, options);
+  add_options_to_show(command, options, /*of_page=*/false);
+  static const Names<std::string> kCards = [] {
+    Names<std::string> names;
+    for (const Card& card : cards()) names.emplace_back(card.id, card.id);
+    return names;
+  }();
+  add_choice(command, "--card", options.card, kCards, "The card of controls that is open at first (none)");
   command.add_option("--screenshot", options.screenshot, "Write the settled window into a PNG, and end")
       ->type_name("FILE");
 }
@@ -527,7 +538,7 @@ void add_web(CLI::App& app, WebOptions& options, Request& request) {
   for (const char* name : {"--port", "--bind", "--no-browser", "--json"}) html->excludes(command.get_option(name));
   begin_theme(command, "What the page shows first");
   // The page's scenarios have one seed.
-  add_options_to_show(command, options.shown, {"seed"});
+  add_options_to_show(command, options.shown, /*of_page=*/true, {"seed"});
 }
 
 std::string version_text() {

@@ -10,11 +10,12 @@
 #include "bihive/io/frames.h"
 #include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
+#include "cards.h"
 #include "frame_reader.h"
-#include "panel.h"
 #include "picture_texture.h"
 #include "player_bar.h"
 #include "request.h"
+#include "tree_search.h"
 #include "window.h"
 
 struct GLFWwindow;
@@ -37,27 +38,46 @@ class App {
   Status run();
 
  private:
-  // Events of the window.
+  // Events of the window (app_events.cpp).
   static void listen(GLFWwindow* window);
   void on_key(int key, int action, int mods);
-  void on_prompt_key(int key, int mods);
+  void on_letter(char letter);
+  void on_path_key(int key, int mods);
+  void on_escape();
   void on_character(unsigned character);
   void on_button(int button, int action, int mods);
+  void on_click();
   void on_cursor(double x, double y);
   void on_wheel(double dy);
   bool over_picture() const;
   void on_drop(std::vector<std::string> paths);
   void wake() { frames_to_draw_ = 3; }
+  bool types_path() const;
+  void pin(double x_px, double y_px);
+  void approach(double x_px, double y_px);
 
   // Actions on events.
   void open_file(const std::string& path);
-  void open_built_in(const std::string& name);
-  void read_again(const ReadOptions& wanted);
+  void open_built_in(const std::string& name, const ScenarioParameters& parameters);
+  void read_again(const GivenReading& reading);
   void opened(const Result<SceneFacts>& facts);
   void apply(const ViewerSettings& settings);
   void apply(const ViewerLook& look);
-  void follow(const PanelRequests& requests);
-  void save();
+  void follow(const CardRequests& requests);
+  void zoom(double factor);
+  void home();
+  void say(const std::string& text, bool bad);
+  std::string command(CommandOf kind) const;
+  void copy_command(CommandOf kind);
+  void open_card(const std::string& id) { cards_.show(id, input_); }
+
+  // Long work, which is shown and can be ended.
+  void begin_save();
+  void continue_save();
+  void finish_save();
+  void begin_search();
+  void take_search();
+  void end_work();
 
   // The player.
   void take_frames(std::shared_ptr<const Frames> frames, std::int64_t frame);
@@ -66,41 +86,63 @@ class App {
   void go_to(std::int64_t frame);
   void continue_playing();
   void follow(const PlayerRequests& requests);
-  Result<PngPixels> picture_to_save();
-  void say(const std::string& text, bool bad);
 
+  // Frame after frame.
+  Layout layout() const;
+  ImVec2 picture_size() const;  // in pixels
+  double wait_s() const;
   void draw(const FrameReport& report, Image* screenshot);
-  float begin_overlay(const char* name) const;
+  void draw_overlays(const Layout& layout, CardRequests& requests);
+  void begin_overlay(const char* name, ImVec2 corner, ImVec2 pivot, float width);
   void end_overlay();
-  void draw_message();
-  void draw_prompt();
-  ImVec2 picture_size() const;  // in ImGui's units
+  void draw_message(const Layout& layout);
+  void draw_work(const Layout& layout);
+  void draw_welcome(const Layout& layout, CardRequests& requests);
+  void draw_help(const Layout& layout);
+  void draw_tip(const Layout& layout);
 
   Viewer& viewer_;
   Request request_;
-  std::string input_;   // shown: a built-in name or a file
-  bool framed_ = true;  // the camera was not moved since it showed the whole scene, or was the scene's own
+  std::string input_;                // shown: a built-in name or a file
+  bool framed_ = true;               // the camera was not moved since it showed the whole scene, or was the scene's own
+  std::optional<std::string> side_;  // from which it shows the whole scene; none: the scene's own camera, or the front
   std::unique_ptr<Window> window_;
   std::unique_ptr<PictureTexture> texture_;
-  Panel panel_;
+  Cards cards_;
   std::shared_ptr<const Frames> first_frames_;
   Player player_;
   std::unique_ptr<FrameReader> reader_;  // null: the scene has one frame
   std::int64_t frame_in_viewer_ = 0;
   bool frame_is_drawn_ = true;  // the requested frame
-  bool panel_shown_ = true;
+  bool controls_shown_ = true;
+  bool help_shown_ = false;
+  bool welcomes_ = false;
   std::string message_;
   bool message_is_bad_ = false;
   std::optional<std::string> file_to_open_;
   bool dropped_several_ = false;
-  std::optional<std::string> asked_file_;  // being typed
-  bool prompt_is_new_ = false;
-  int frames_to_draw_ = 3;  // of the window, at least
+  bool path_is_new_ = false;  // the letter of the key that opened the card comes after that key
+  int frames_to_draw_ = 3;    // of the window, at least
+
+  struct Save {
+    std::string path;
+    std::vector<std::pair<std::string, std::string>> text;  // of the PNG file
+    double done = 0;
+  };
+  std::optional<Save> save_;  // being drawn
+  std::unique_ptr<TreeSearch> search_;
+  double search_shown_ = 0;  // its progress as last drawn
 
   enum class Drag { none, orbit, pan };
   Drag drag_ = Drag::none;
-  double x_ = 0, y_ = 0;                                // of the pointer
-  ImVec2 overlay_min_ = {0, 0}, overlay_max_ = {0, 0};  // the message or the prompt, as last drawn, in ImGui's units
+  double x_ = 0, y_ = 0;            // of the pointer
+  double down_x_ = 0, down_y_ = 0;  // where a button went down
+  bool may_be_click_ = false;       // it has not moved since
+  double last_click_ms_ = -1e9;
+  std::optional<double> rests_since_ms_;  // the pointer, over the picture, without a name yet
+  std::optional<NamedSphere> tip_;
+  Covered covered_;
+  bool popup_open_ = false;
 };
 
 }  // namespace bihive::window

@@ -38,8 +38,8 @@ int fail(const Error& error, ExitCode code) {
 }
 
 Result<LoadedFile> load(Viewer& viewer, const Request& request) {
-  if (!is_built_in_scene(request.input)) return load_file(viewer, request.input, request.reading);
-  Result<SceneFacts> facts = viewer.load_built_in(request.input, request.scenario, request.reading);
+  if (!is_built_in_scene(request.input)) return load_file(viewer, request.input, request.reading.options());
+  Result<SceneFacts> facts = viewer.load_built_in(request.input, request.scenario, request.reading.options());
   if (!facts) return facts.error();
   return LoadedFile{std::move(*facts), nullptr};
 }

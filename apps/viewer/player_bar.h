@@ -1,4 +1,4 @@
-// The bar below the picture of a file with frames: time line, play, step, speed and loop.
+// The bar over the picture of a file with frames: time line, play, step, speed and loop.
 #pragma once
 
 #include <imgui.h>
@@ -8,6 +8,7 @@
 
 #include "bihive/viewer/player.h"
 #include "bihive/viewer/viewer.h"
+#include "widgets.h"
 
 namespace bihive::window {
 
@@ -20,10 +21,13 @@ struct PlayerRequests {
   std::optional<bool> loops;
 };
 
-/// In ImGui's units.
-float player_bar_height(double text_scale);
+/// In ImGui's units, over a picture of that width: a small one has the time line in a row of its own.
+float player_bar_height(float picture_width, double text_scale);
+/// Whether it takes the whole width of a picture, so that nothing else can be at its lower border.
+bool player_bar_is_wide(float picture_width, double text_scale);
 
-/// Draws it at the lower border of a picture of that size.
-PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, ImVec2 picture, double text_scale);
+/// Draws it in the middle of the lower border of a picture of that size.
+PlayerRequests draw_player_bar(const Player& player, const SceneFacts& facts, ImVec2 picture, double text_scale,
+                               Covered& covered);
 
 }  // namespace bihive::window

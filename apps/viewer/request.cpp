@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bihive/base/json_text.h"
-#include "bihive/io/reading_settings.h"
 #include "bihive/scene/names.h"
 
 namespace bihive::window {
@@ -23,8 +22,9 @@ Result<Request> take(const json& document) {
   request.scenario.seed = document.value("seed", request.scenario.seed);
   const Result<GivenReading> reading = reading_from_json(document.value("reading", json::object()).dump());
   if (!reading) return reading.error();
-  request.reading = reading->options();
-  if (request.reading.radius) request.scenario.radius = scenario_radius(*request.reading.radius);
+  request.reading = *reading;
+  if (const std::optional<double> radius = reading->options().radius)
+    request.scenario.radius = scenario_radius(*radius);
   if (document.contains("size")) {
     request.width = document.at("size").at(0).get<int>();
     request.height = document.at("size").at(1).get<int>();
@@ -33,6 +33,10 @@ Result<Request> take(const json& document) {
     if (document.value("view_from", "") == name) request.side = side;
   if (document.contains("settings")) request.settings = document.at("settings").dump();
   if (document.contains("look")) request.look = document.at("look").dump();
+  request.places_camera = document.contains(json::json_pointer("/settings/camera/eye"));
+  request.tune = document.value("tune", false);
+  request.welcomes = document.value("welcome", false);
+  request.card = document.value("card", "");
   request.screenshot = document.value("screenshot", "");
   return request;
 }

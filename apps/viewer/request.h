@@ -6,6 +6,9 @@
 //    "reading": {"radius_scale": "2"},       as in io/reading_settings.h
 //    "size": [1280, 800], "view_from": "left",
 //    "settings": {...}, "look": {...},       as in viewer/viewer_json.h; missing ones are the scene's
+//    "tune": true,                           the tree's limits are searched
+//    "card": "style",                        is open (viewer/cards.h)
+//    "welcome": true,                        nobody has named an input: others are proposed
 //    "screenshot": "window.png"}
 //
 // scripts/shown_frames starts it with {"shown_frames": "frames.json", "seconds": 2}, and nothing else: the window shows
@@ -17,7 +20,7 @@
 #include <string_view>
 
 #include "bihive/base/result.h"
-#include "bihive/io/read_spheres.h"
+#include "bihive/io/reading_settings.h"
 #include "bihive/scene/framing.h"
 #include "bihive/scene/generators.h"
 
@@ -26,11 +29,14 @@ namespace bihive::window {
 struct Request {
   std::string input;
   ScenarioParameters scenario;
-  ReadOptions reading;
+  GivenReading reading;
   int width = 1280, height = 800;  ///< of the window, in the screen's units
   std::optional<ViewFrom> side;
   std::string settings = "{}";
   std::string look = "{}";
+  bool places_camera = false;  ///< `settings` have a camera of their own
+  bool tune = false, welcomes = false;
+  std::string card;          ///< id; empty: none
   std::string screenshot;    ///< not empty: a PNG of the settled window is written there, and the program ends
   std::string shown_frames;  ///< not empty: frames shown a second are written there as JSON, and the program ends
   double seconds = 2;        ///< of each such measurement

@@ -16,6 +16,10 @@ constexpr const char* kFonts[] = {
     "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
 };
 
+// Letters of European languages, and the signs of names and messages.
+constexpr ImWchar kLetters[] = {0x20,   0x24F,  0x370,  0x3FF,  0x400,  0x4FF,  0x2010, 0x2044,
+                                0x2070, 0x209C, 0x2190, 0x2193, 0x2200, 0x2265, 0};
+
 void use_font(double size, double pixels_per_unit) {
   ImGuiIO& io = ImGui::GetIO();
   const auto pixels = static_cast<float>(size * pixels_per_unit);
@@ -23,7 +27,7 @@ void use_font(double size, double pixels_per_unit) {
   for (const char* font : kFonts) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(font, ignored)) continue;
-    if (io.Fonts->AddFontFromFileTTF(font, pixels) != nullptr) return;
+    if (io.Fonts->AddFontFromFileTTF(font, pixels, nullptr, kLetters) != nullptr) return;
   }
   ImFontConfig plain;
   plain.SizePixels = pixels;

@@ -7,6 +7,7 @@
 
 #include "bihive/base/json_text.h"
 #include "theme.h"
+#include "widgets.h"
 
 namespace bihive::window {
 namespace {
@@ -16,9 +17,7 @@ using nlohmann::json;
 constexpr std::int64_t kQuickSpheres = 100000;
 
 std::string grouped(const json& value) {
-  std::string digits = std::to_string(value.get<std::int64_t>());
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-  return digits;
+  return window::grouped(value.get<std::int64_t>());
 }
 
 std::string rounded(const json& value) {

@@ -4,7 +4,6 @@
 #include <emscripten/html5_webgl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -270,21 +269,9 @@ std::string Page::picked_json(const Picked& picked) const {
   return text_of({{"picked", json}});
 }
 
-// The shown sphere of an id of the input; nothing if it is hidden, or there is none.
 std::optional<std::int64_t> Page::stored_id(double id) const {
-  const Scene& scene = viewer_.scene();
-  const std::int64_t of_input = scene.id_in_input.empty() ? scene.spheres.size() : scene.size_of_input;
-  if (!(id >= 0 && id < kMostSpheres) || of_input == 0) return std::nullopt;
-  const auto wanted = static_cast<std::int64_t>(id);
-  const std::int64_t copy = wanted / of_input;
-  std::int64_t stored = wanted % of_input;
-  if (!scene.id_in_input.empty()) {
-    const auto at = std::lower_bound(scene.id_in_input.begin(), scene.id_in_input.end(), stored);
-    if (at == scene.id_in_input.end() || *at != stored) return std::nullopt;
-    stored = at - scene.id_in_input.begin();
-  }
-  const std::int64_t shown = copy * scene.spheres.size() + stored;
-  return copy < scene.spheres.images().count() ? std::optional(shown) : std::nullopt;
+  if (!(id >= 0 && id < kMostSpheres)) return std::nullopt;
+  return shown_id(viewer_.scene(), static_cast<std::int64_t>(id));
 }
 
 std::string Page::sphere(double id) const {

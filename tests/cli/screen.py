@@ -42,6 +42,31 @@ class Screen:
         self.server.terminate()
         self.server.wait()
 
+    def clipboard(self):
+        """The text that a program has copied."""
+        target, place = (self.client.intern_atom(name) for name in ("UTF8_STRING", "BIHIVE_COPIED"))
+        asker = self.root().create_window(0, 0, 1, 1, 0, Xlib.X.CopyFromParent)
+        asker.convert_selection(self.client.intern_atom("CLIPBOARD"), target, place, Xlib.X.CurrentTime)
+        self.client.flush()
+        deadline = time.monotonic() + Drag.SECONDS
+        while time.monotonic() < deadline:
+            if not self.client.pending_events():
+                time.sleep(0.01)
+                continue
+            event = self.client.next_event()
+            if event.type == Xlib.X.SelectionNotify:
+                text = asker.get_full_property(place, target) if event.property else None
+                asker.destroy()
+                return text.value.decode() if text else ""
+        raise AssertionError("nobody answers with what is copied")
+
+    def pixels(self, window, x, y, width, height):
+        """Red, green and blue of a part of a window, one after the other."""
+        image = self.client.create_resource_object("window", int(window)).get_image(
+            x, y, width, height, Xlib.X.ZPixmap, 0xFFFFFFFF
+        )
+        return [(image.data[i + 2], image.data[i + 1], image.data[i]) for i in range(0, len(image.data), 4)]
+
     def drop(self, window, paths):
         """Drags these files onto a window and drops them; returns when the window has taken them."""
         Drag(self.client, window).drop(paths)

@@ -4,6 +4,7 @@
 
 import json
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -15,8 +16,10 @@ from program import BIHIVE, PATIENCE_S, ProgramTest, main, png_pixels, png_size,
 from screen import Screen
 
 HAS_WINDOW = "BIHIVE_VIEW" in os.environ
-PANEL_PX = 348
-PANEL_COLOUR = (27, 29, 33)
+CARD_PX, MARGIN_PX, CARD_TOP_PX = 348, 12, 58
+CARD_COLOUR = (27, 29, 33)
+# Controls of a wide window are above the first, left of the second and right of the third of these.
+FREE_TOP_PX, FREE_LEFT_PX, FREE_RIGHT_PX = 92, 230, 84
 BOX = """ITEM: TIMESTEP
 0
 ITEM: NUMBER OF ATOMS
@@ -99,8 +102,18 @@ class NoWindow(ProgramTest):
         self.assertIn("--crop left out", said)
         self.assertNotIn("size", request)
 
+    def test_without_an_input(self):
+        request, _ = self.request()
+        self.assertEqual((request["input"], request["welcome"]), ("demo", True))
+        request, _ = self.request("demo", "--tune", "--card", "style")
+        self.assertEqual((request["tune"], request["card"], "welcome" in request), (True, "style", False))
+
     def test_usage(self):
-        self.assertIn("INPUT", self.fail_usage("view"))
+        self.assertIn("--card:", self.fail_usage("view", "demo", "--card", "nothing"))
+        self.assertIn("--tune", self.fail_usage("view", "demo", "--tune", "--max-prims", "4"))
+        self.assertIn("--tune", self.fail_usage("view", "demo", "--tune", "--engine", "gpu"))
+        self.assertIn("--tune", self.fail_usage("view", "demo", "--tune", "--view", "traversal"))
+        self.assertIn("--tune", self.fail_usage("web", "demo", "--tune", "--no-browser"))
         self.assertIn("--engine:", self.fail_usage("view", "demo", "--engine", "reference"))
         self.assertIn("--view tree", self.fail_usage("view", "demo", "--engine", "gpu", "--view", "tree"))
         self.assertIn("--count is for", self.fail_usage("view", "demo", "--count", "5"))
@@ -120,61 +133,89 @@ class Window(ProgramTest):
     def tearDownClass(cls):
         cls.screen.end()
 
-    def screenshot(self, *arguments):
-        """Rows of pixels of the picture, and of the panel beside it."""
+    def window_of(self, *arguments):
+        """Rows of pixels of the whole window."""
         done = self.run_bihive("view", *arguments, "--screenshot", "window.png", env=self.screen.environment())
         self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
-        rows = png_pixels(self.read("window.png"))
-        return [row[:-PANEL_PX] for row in rows], [row[-PANEL_PX:] for row in rows]
+        return png_pixels(self.read("window.png"))
 
-    def rendered(self, size, *arguments):
+    @staticmethod
+    def free(rows):
+        """The part of a picture over which there are no controls."""
+        return [row[FREE_LEFT_PX:-FREE_RIGHT_PX] for row in rows[FREE_TOP_PX:]]
+
+    def screenshot(self, *arguments):
+        return self.free(self.window_of(*arguments))
+
+    def drawn(self, size, *arguments):
         self.succeed("render", *arguments, "-o", "rendered.png", "--size", size)
         return png_pixels(self.read("rendered.png"))
 
-    def assert_is_panel(self, panel):
-        pixels = [pixel for row in panel for pixel in row]
-        self.assertGreater(pixels.count(PANEL_COLOUR) / len(pixels), 0.4)
-        self.assertGreater(sum(min(pixel) > 200 for pixel in pixels), 500, "text")
+    def rendered(self, size, *arguments):
+        """The same part of what bihive render draws."""
+        return self.free(self.drawn(size, *arguments))
+
+    def assert_is_card(self, rows, scale=1):
+        """The part of a window where a card is, at the right border."""
+        right = -MARGIN_PX * scale
+        head = [row[right - CARD_PX * scale : right] for row in rows[CARD_TOP_PX * scale : (CARD_TOP_PX + 60) * scale]]
+        pixels = [pixel for row in head for pixel in row]
+        self.assertGreater(pixels.count(CARD_COLOUR) / len(pixels), 0.4)
+        self.assertGreater(sum(min(pixel) > 200 for pixel in pixels), 25, "text")
 
     def test_the_cpu_shows_what_it_renders(self):
-        picture, panel = self.screenshot("demo", "--size", "620x420", "--engine", "cpu")
-        self.assertEqual((len(picture[0]), len(picture)), (620 - PANEL_PX, 420))
-        self.assertTrue(picture == self.rendered("272x420", "demo"), "the pixels differ")
-        self.assert_is_panel(panel)
+        window = self.window_of("demo", "--size", "620x420", "--engine", "cpu")
+        self.assertEqual((len(window[0]), len(window)), (620, 420))
+        self.assertTrue(self.free(window) == self.rendered("620x420", "demo"), "the pixels differ")
 
-    def test_a_narrow_window_has_the_panel_below(self):
-        for engine, tolerance in (("cpu", 0), ("gpu", 0.01)):
+    def test_every_card(self):
+        for card in ("scene", "open", "style", "colour", "show", "cut", "measure", "save", "share", "more"):
             given = ["demo", "--style", "flat", "--samples", "1"]
-            arguments = [*given, "--size", "360x640", "--engine", engine, "--screenshot", "window.png"]
-            done = self.run_bihive("view", *arguments, env=self.screen.environment())
-            self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
-            rows = png_pixels(self.read("window.png"))
-            self.assertEqual((len(rows[0]), len(rows)), (360, 640))
-            self.assertLessEqual(share_off(rows[:320], self.rendered("360x320", *given), 8), tolerance, engine)
-            self.assert_is_panel(rows[320:])
+            window = self.window_of(*given, "--size", "1000x500", "--card", card)
+            self.assert_is_card(window)
+            drawn = self.drawn("1000x500", *given)
+            beside = [row[FREE_LEFT_PX : -CARD_PX - 2 * MARGIN_PX - FREE_RIGHT_PX] for row in window[FREE_TOP_PX:]]
+            self.assertTrue(
+                beside == [row[FREE_LEFT_PX : -CARD_PX - 2 * MARGIN_PX - FREE_RIGHT_PX] for row in drawn[FREE_TOP_PX:]], card
+            )
+
+    def test_a_narrow_window_has_a_sheet_below(self):
+        given = ["demo", "--style", "flat", "--samples", "1"]
+        for engine, tolerance in (("cpu", 0), ("gpu", 0.01)):
+            for card, height in ((None, 640 - 48), ("style", 310)):
+                rows = self.window_of(*given, "--size", "360x640", "--engine", engine, *(["--card", card] if card else []))
+                self.assertEqual((len(rows[0]), len(rows)), (360, 640))
+                shown, drawn = ([row[140:-80] for row in part[50:height]] for part in (rows, self.drawn(f"360x{height}", *given)))
+                self.assertLessEqual(share_off(shown, drawn, 8), tolerance, (engine, card))
+                sheet = [pixel for row in rows[height:] for pixel in row]
+                self.assertGreater(sheet.count(CARD_COLOUR) / len(sheet), 0.2)
+
+    def test_a_search_keeps_the_bits(self):
+        given = ["scenario2", "--count", "500", "--recursion", "2"]
+        tuned = self.screenshot(*given, "--tune", "--size", "620x300")[:-60]  # a message is below
+        self.assertTrue(tuned == self.rendered("620x300", *given)[:-60])
 
     def test_styles_are_those_of_render(self):
         for style in ("studio", "flat"):
             given = ["demo", "--style", style]
-            picture, _ = self.screenshot(*given, "--size", "620x320")
-            self.assertTrue(picture == self.rendered("272x320", *given), "the pixels differ")
+            picture = self.screenshot(*given, "--size", "620x320")
+            self.assertTrue(picture == self.rendered("620x320", *given), "the pixels differ")
 
     def test_the_graphics_processor_draws_styles(self):
         given = ["demo", "--style", "studio"]
-        picture, _ = self.screenshot(*given, "--size", "620x320", "--engine", "gpu")
-        self.assertLessEqual(share_off(picture, self.rendered("272x320", *given), 8), 0.01)
+        picture = self.screenshot(*given, "--size", "620x320", "--engine", "gpu")
+        self.assertLessEqual(share_off(picture, self.rendered("620x320", *given), 8), 0.01)
 
     def test_the_graphics_processor_shows_nearly_the_same(self):
         given = ["scenario3", "--recursion", "2"]
-        picture, panel = self.screenshot(*given, "--size", "620x420", "--engine", "gpu", "--max-prims", "2")
-        self.assertLessEqual(share_off(picture, self.rendered("272x420", *given), 2), 0.005)
-        self.assert_is_panel(panel)
+        picture = self.screenshot(*given, "--size", "620x420", "--engine", "gpu", "--max-prims", "2")
+        self.assertLessEqual(share_off(picture, self.rendered("620x420", *given), 2), 0.005)
 
     def test_options_of_the_picture_and_of_the_file(self):
         self.write("two.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
         given = ["two.csv", "--view", "normal", "--view-from", "top", "--radius-scale", "1.5"]
-        picture, _ = self.screenshot(*given, "--size", "500x200")
-        self.assertTrue(picture == self.rendered("152x200", *given), "the pixels differ")
+        picture = self.screenshot(*given, "--size", "620x200")
+        self.assertTrue(picture == self.rendered("620x200", *given), "the pixels differ")
 
     def test_effects_of_a_scene_file(self):
         """Ambient occlusion, fog, outlines, tone, lens, samples and labels of a file, as bihive render draws them."""
@@ -194,8 +235,8 @@ class Window(ProgramTest):
         for own_camera, own in [(lens, {}), (camera, labels), (camera, auto)]:
             document = {"bihive_scene": 2, "camera": own_camera, "picture": {**picture, **own}, "spheres": spheres}
             self.write("two.json", json.dumps(document))
-            shown, _ = self.screenshot("two.json", "--size", "620x240")
-            self.assertTrue(shown == self.rendered("272x240", "two.json"), (own_camera, own))
+            shown = self.screenshot("two.json", "--size", "620x240")
+            self.assertTrue(shown == self.rendered("620x240", "two.json"), (own_camera, own))
 
     def test_looks_and_effects_are_those_of_render(self):
         self.write("box.lammpstrj", BOX)
@@ -213,8 +254,8 @@ class Window(ProgramTest):
             ["demo", *lens],
             ["box.lammpstrj", "--radius", "1", "--cell", "--replicate", "2x1x1", "--view-from", "iso"],
         ]:
-            picture, _ = self.screenshot(*given, "--size", "620x220")
-            self.assertTrue(picture == self.rendered("272x220", *given), given)
+            picture = self.screenshot(*given, "--size", "620x220")
+            self.assertTrue(picture == self.rendered("620x220", *given), given)
 
     def test_looks_that_do_not_fit(self):
         env = self.screen.environment()
@@ -242,17 +283,18 @@ class Window(ProgramTest):
         self.assertIn("OpenGL 3.3", self.fail_with(3, "view", "demo", env=screen.environment()))
 
     def test_fine_pixels(self):
-        """A screen of 192 dots an inch: twice the pixels, with letters and panel twice as large."""
+        """A screen of 192 dots an inch: twice the pixels, with letters and cards twice as large."""
         screen = Screen(dpi=192)
         self.addCleanup(screen.end)
-        arguments = ["view", "demo", "--size", "620x420", "--samples", "1", "--screenshot", "window.png"]
+        arguments = ["view", "demo", "--size", "700x420", "--samples", "1", "--card", "cut", "--screenshot", "window.png"]
         done = self.run_bihive(*arguments, env=screen.environment())
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         rows = png_pixels(self.read("window.png"))
-        self.assertEqual((len(rows[0]), len(rows)), (2 * 620, 2 * 420))
-        picture = [row[: -2 * PANEL_PX] for row in rows]
-        self.assertTrue(picture == self.rendered("544x840", "demo", "--samples", "1"), "the pixels differ")
-        self.assert_is_panel([row[-2 * PANEL_PX :] for row in rows])
+        self.assertEqual((len(rows[0]), len(rows)), (2 * 700, 2 * 420))
+        self.assert_is_card(rows, 2)
+        drawn = self.drawn("1400x840", "demo", "--samples", "1")
+        part = slice(2 * 100, 2 * 200), slice(2 * 180, 2 * 240)
+        self.assertTrue([row[part[1]] for row in rows[part[0]]] == [row[part[1]] for row in drawn[part[0]]], "the pixels differ")
 
     # --- Keys and pointer ---------------------------------------------------------------------------------------
 
@@ -284,6 +326,13 @@ class Window(ProgramTest):
             self.tool("key", key)
             time.sleep(0.05)
 
+    def enter(self, text, pause_s):
+        """Types a text into the field that has been clicked. A key that goes down and up between two frames is lost."""
+        self.tool("type", "--delay", "50", text)
+        self.tool("keydown", "Return")
+        time.sleep(pause_s)
+        self.tool("keyup", "Return")
+
     def saved(self, patience_s=PATIENCE_S):
         """Presses S; the settings and the scene of the picture that is written."""
         before = set(os.listdir(self.folder))
@@ -305,7 +354,7 @@ class Window(ProgramTest):
         self.write("broken.csv", "x,y,z\n1,2,what\n")
         self.open_window("demo", "--size", "700x400", "--samples", "1")
         first = self.saved()
-        self.assertEqual((first["name"], first["scene"], first["size"]), ("demo.png", "demo", (700 - PANEL_PX, 400)))
+        self.assertEqual((first["name"], first["scene"], first["size"]), ("demo.png", "demo", (700, 400)))
         self.assertEqual((first["view"], first["engine"]), ("shaded", "cpu"))
 
         # Views, engine.
@@ -318,7 +367,7 @@ class Window(ProgramTest):
         self.assertEqual(self.saved()["view"], "tree")
         self.press("1")
 
-        # The pointer turns, shifts and zooms; over the panel it does not.
+        # The pointer turns, shifts and zooms; over controls it does not.
         self.tool("mousemove", "--window", self.window, "100", "100", "mousedown", "1")
         self.tool("mousemove", "--window", self.window, "160", "120", "mouseup", "1")
         turned = self.saved()["camera"]
@@ -335,20 +384,22 @@ class Window(ProgramTest):
             return sum((a - b) ** 2 for a, b in zip(camera["eye"], camera["look_at"])) ** 0.5
 
         self.assertAlmostEqual(distance(shifted) / distance(nearer), 1.15)
-        self.tool("mousemove", "--window", self.window, "600", "390", "click", "4")
+        self.tool("mousemove", "--window", self.window, "660", "370", "click", "4")
         self.assertEqual(self.saved()["camera"], nearer)
         self.press("Left", "minus")
         self.assertGreater(distance(self.saved()["camera"]), distance(nearer))
         self.press("r")
         self.assertEqual(self.saved()["camera"], first["camera"])
 
-        # Without the panel the picture is larger.
+        # Where controls are hidden, there is the picture.
         self.press("h")
-        self.assertEqual(self.saved()["size"], (700, 400))
-        self.press("h")
+        self.saved()
+        self.tool("mousemove", "--window", self.window, "660", "370", "click", "4")
+        self.assertNotEqual(self.saved()["camera"], first["camera"])
+        self.press("h", "r")
 
-        # A drag between two frames counts too, also if the last frame had the pointer over the panel and a message.
-        self.tool("mousemove", "--window", self.window, "600", "200")
+        # A drag between two frames counts too, also if the last frame had the pointer over controls and a message.
+        self.tool("mousemove", "--window", self.window, "660", "370")
         self.saved()
         time.sleep(0.5)  # for that frame
         os.kill(self.program.pid, signal.SIGSTOP)
@@ -389,8 +440,7 @@ class Window(ProgramTest):
             self.wait_for_frame(frame)
         shown = self.frame()
         self.assertEqual(shown["camera"], camera, "the camera stays")
-        size = f"{700 - PANEL_PX}x400"
-        native = self.rendered(size, "run.xyz", "--samples", "1", "--frame", "5")
+        native = self.drawn("700x400", "run.xyz", "--samples", "1", "--frame", "5")
         self.assertTrue(png_pixels(self.read(shown["name"])) == native, "the pixels differ")
 
         # It plays on and on, and stops where the key is pressed.
@@ -402,7 +452,7 @@ class Window(ProgramTest):
         self.assertEqual(self.frame()["frame"], self.frame()["frame"])
 
         # The time line: its right end is the last frame, and the camera turns as ever.
-        line = 700 - PANEL_PX - 160
+        line = 700 - 175
         self.tool("mousemove", "--window", self.window, str(line), "380")
         time.sleep(0.3)
         self.tool("click", "1")
@@ -424,12 +474,12 @@ class Window(ProgramTest):
         self.fail(f"frame {frame} does not come")
 
     def test_a_look_of_a_selection(self):
-        """A row of the panel by pointer and keys: the button is below six lines of the panel. Nothing but the picture
-        says that the panel has taken a key, so a busy machine gets more time at the next attempt."""
+        """A row of the card "Show" by pointer and keys. Nothing but the picture says that the card has taken a key, so a
+        busy machine gets more time at the next attempt."""
         self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
         wanted = [{"select": "index 1", "action": "colour", "value": "orange"}]
         for pause_s in [0.3, 1, 4, 16]:
-            self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat")
+            self.open_window("pair.csv", "--size", "700x600", "--samples", "1", "--style", "flat", "--card", "show")
             look = self.saved()["look"]
             self.assertEqual((look["style"], look["rows"]), ("flat", []))
             rows = self.rows_after_typing(pause_s)
@@ -441,20 +491,19 @@ class Window(ProgramTest):
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 
     def rows_after_typing(self, pause_s):
-        """The rows of the saved picture; none if the panel missed a key, or takes S for a letter."""
+        """The rows of the saved picture; none if the card missed a key, or takes S for a letter."""
 
         def enter(x, y, text):
             self.tool("mousemove", "--window", self.window, str(x), str(y))
             time.sleep(pause_s)
             self.tool("click", "1")
             time.sleep(2 * pause_s)
-            self.tool("type", "--delay", "50", text)
-            self.press("Return")
+            self.enter(text, pause_s)
             time.sleep(2 * pause_s)
 
-        enter(520, 216, "")  # add
-        enter(450, 216, "index 1")
-        enter(610, 244, "orange")
+        enter(512, 149, "")  # add
+        enter(430, 149, "index 1")
+        enter(600, 177, "orange")
         self.tool("mousemove", "--window", self.window, "100", "100")
         deadline = time.monotonic() + 10 * pause_s
         while time.monotonic() < deadline:
@@ -466,20 +515,19 @@ class Window(ProgramTest):
                 return rows
         return []
 
-    def test_a_title_by_the_panel(self):
-        """The group labels is opened by a click, and its first field gets a text. As above, a busy machine gets more
+    def test_a_title_by_a_card(self):
+        """The group labels of the card "Style" is opened by a click, and its first field gets a text. As above, a busy machine gets more
         time at the next attempt."""
         self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
         for pause_s in [0.3, 1, 4, 16]:
-            self.open_window("pair.csv", "--size", "700x700", "--samples", "1", "--style", "flat")
+            self.open_window("pair.csv", "--size", "700x700", "--samples", "1", "--style", "flat", "--card", "style")
             self.assertEqual(self.saved()["title"], "")
-            for y in (534, 562):
+            for y in (340, 369):
                 self.tool("mousemove", "--window", self.window, "600", str(y))
                 time.sleep(pause_s)
                 self.tool("click", "1")
                 time.sleep(2 * pause_s)
-            self.tool("type", "--delay", "50", "A pair")
-            self.press("Return")
+            self.enter("A pair", pause_s)
             self.tool("mousemove", "--window", self.window, "100", "100")
             time.sleep(2 * pause_s)
             try:
@@ -491,7 +539,127 @@ class Window(ProgramTest):
             self.close_window()
         self.assertEqual(saved["title"], "A pair")
         options = ["--style", "flat", "--samples", "1", "--title", "A pair"]
-        self.assertTrue(png_pixels(self.read(saved["name"])) == self.rendered("352x700", "pair.csv", *options))
+        self.assertTrue(png_pixels(self.read(saved["name"])) == self.drawn("700x700", "pair.csv", *options))
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
+
+    def click(self, x, y, *times):
+        self.tool("mousemove", "--window", self.window, str(x), str(y))
+        time.sleep(0.3)
+        self.tool("click", "1")
+        time.sleep(0.5)
+
+    def wait_for(self, what, message):
+        deadline = time.monotonic() + PATIENCE_S
+        while time.monotonic() < deadline:
+            if what():
+                return
+            time.sleep(0.1)
+        self.fail(message)
+
+    def card_is_open(self, width):
+        corner = width - MARGIN_PX - CARD_PX
+        return set(self.screen.pixels(self.window, corner + 2, CARD_TOP_PX + 2, 8, 4)) == {CARD_COLOUR}
+
+    def test_cards_by_pointer_and_keys(self):
+        width = 900
+        more, share, picture = (width - 36, 26), (width - 104, 26), (220, 300)
+        self.open_window("demo", "--size", f"{width}x600", "--samples", "1", "--style", "flat")
+        self.saved()
+        opened = lambda: self.card_is_open(width)
+        closed = lambda: not self.card_is_open(width)
+        self.assertTrue(closed())
+        self.click(*more)
+        self.wait_for(opened, "the button opens no card")
+        self.press("Escape")
+        self.wait_for(closed, "Escape closes no card")
+        self.click(*share)
+        self.wait_for(opened, "the button opens no card")
+        self.click(*more)
+        self.wait_for(opened, "another card")
+        self.click(*more)
+        self.wait_for(closed, "the button closes its card")
+        self.click(*more)
+        self.wait_for(opened, "the button opens its card")
+        self.click(*picture)
+        self.wait_for(closed, "a click on the picture closes no card")
+
+        # The help is over everything, and goes again.
+        middle = lambda: self.screen.pixels(self.window, 350, 250, 200, 100)
+        before = middle()
+        for key in ("question", "F1"):
+            self.press(key)
+            self.wait_for(lambda: middle() != before, f"{key} shows no help")
+            self.press(key)
+            self.wait_for(lambda: middle() == before, f"{key} hides no help")
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
+
+    def test_a_click_beside_show_closes_nothing(self):
+        self.open_window("demo", "--size", "900x600", "--samples", "1", "--style", "flat", "--card", "show")
+        self.saved()
+        self.click(300, 300)
+        self.saved()
+        self.assertTrue(self.card_is_open(900))
+        self.press("q")
+
+    def test_paths_are_completed(self):
+        self.write("pair.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        self.write("titled.xyz", "1\ntwo words\nC 0 0 0\n")
+        os.mkdir(self.path("sub"))
+        self.write("sub/one.xyz", "1\n\nC 0 0 0\n")
+        home = os.environ.get("HOME")
+        self.addCleanup(lambda: os.environ.update(HOME=home) if home else os.environ.pop("HOME"))
+        os.environ["HOME"] = str(self.folder)
+        self.open_window("four-spheres", "--size", "700x500", "--samples", "1")
+        self.saved()
+
+        def type_path(text, *keys):
+            self.press("o")
+            self.tool("type", "--delay", "30", text)
+            self.press(*keys)
+
+        type_path("ti", "Tab", "Return")
+        self.title("two words - bihive")
+        type_path("~/pa", "Tab", "Return")
+        self.title("pair.csv - bihive")
+        # The list has the folder first; its own list has one file. The path begins with the folder of the shown file.
+        self.press("o", "Down", "Return", "Down", "Return")
+        self.title("one.xyz - bihive")
+        # Letters are those of the path; Escape ends that.
+        before = set(os.listdir(self.folder))
+        self.press("o", "s", "BackSpace", "Escape")
+        self.assertEqual(set(os.listdir(self.folder)), before)
+        self.saved()
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
+
+    def test_the_picture_as_a_command(self):
+        self.write("two words.csv", "x,y,z,r\n0,0,0,1\n3,1,0,1\n")
+        self.open_window("two words.csv", "--size", "500x300", "--samples", "1", "--style", "studio", "--fog", "0.5", "--max-prims", "2",
+                         "--select", "index 1", "--colour", "orange")
+        self.saved()
+        self.press("Left", "Up", "Right")
+        self.tool("mousemove", "--window", self.window, "250", "150", "click", "4")
+        saved = self.saved()
+        self.press("c")
+        words = shlex.split(self.screen.clipboard())
+        self.assertEqual(words[:5], ["bihive", "render", "two words.csv", "-o", "two words.png"])
+        os.rename(self.path(saved["name"]), self.path("saved.png"))
+        self.succeed(*words[1:])
+        self.assertTrue(png_pixels(self.read("two words.png")) == png_pixels(self.read("saved.png")), words)
+        self.press("q")
+        self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
+
+    def test_a_search_is_cancelled(self):
+        self.open_window("scenario2", "--count", "60000", "--size", "500x300", "--tune")
+        # Its progress lies over the picture, until a key ends it.
+        notice = lambda: self.screen.pixels(self.window, 20, 106, 4, 20)
+        self.wait_for(lambda: len(set(notice())) == 1 and sum(notice()[0]) > 60, "no progress is shown")
+        self.press("Escape")
+        self.wait_for(lambda: sum(notice()[0]) < 60 or len(set(notice())) > 1, "it goes on")
+        saved = self.saved()
+        self.assertEqual((saved["max_prims"], saved["max_depth"]), (None, None))
         self.press("q")
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
 

@@ -9,7 +9,6 @@ is right.
 import json
 import os
 import pathlib
-import shlex
 import shutil
 import subprocess
 import sys
@@ -100,14 +99,7 @@ def test_desktop():
         return
     desktop = share / "applications/bihive.desktop"
     values = dict(line.split("=", 1) for line in desktop.read_text().splitlines() if "=" in line)
-    # Two layers of quotes: those of the file's values, then those of command lines.
-    words = shlex.split(values["Exec"].replace("\\\\", "\\"))
-    words = [word.replace("\\$", "$") for word in words]  # shlex leaves this one, shells and desktops do not
-    assert words[-1] == "%f", words
-    for files, expected in (([], "view demo"), (["a b.pdb"], "view a b.pdb")):
-        script = "bihive() { echo \"$@\"; }; " + words[2].replace("exec ", "")
-        said = subprocess.run([*words[:2], script, *words[3:-1], *files], capture_output=True, text=True, check=True)
-        assert said.stdout == expected + "\n", (files, said.stdout)
+    assert values["Exec"] == "bihive view %f", values
     types = xml.etree.ElementTree.parse(share / "mime/packages/bihive-types.xml").getroot()
     named = {element.get("type") for element in types}
     assert set(values["MimeType"].rstrip(";").split(";")) == named, named

@@ -121,6 +121,7 @@ void run_styles(const StylesOptions& options);
 struct ViewOptions : PictureRequest {
   std::optional<PictureSize> size;  ///< of the window
   std::optional<ViewerEngine> window_engine;
+  std::string card;        ///< id of viewer/cards.h; empty: none is open at first
   std::string screenshot;  ///< empty: none
 };
 /// Becomes bihive-view, the program with the window; returns only by a Failure.

@@ -23,6 +23,12 @@
 #include "bihive/viewer/viewer_settings.h"
 
 namespace bihive::cli {
+
+bool places_camera(const ViewOptions& options) {
+  return options.eye || options.look_at || options.fit || options.zoom_to || options.up || options.turn ||
+         options.zoom || options.view_of;
+}
+
 namespace {
 
 using nlohmann::ordered_json;
@@ -62,12 +68,6 @@ void put_parameters(const ViewOptions& options, ordered_json& settings) {
   if (const auto samples = parameters.find("samples_per_pixel"); samples != parameters.end())
     *samples = std::min<std::int64_t>(samples->get<std::int64_t>(), kMostSamples);
   settings.update(parameters);
-}
-
-// Whether the camera is more than a side from which the whole set is seen.
-bool places_camera(const ViewOptions& options) {
-  return options.eye || options.look_at || options.fit || options.zoom_to || options.up || options.turn ||
-         options.zoom || options.view_of;
 }
 
 // The size for which a camera is fitted. The angle is along the shorter side, so what fits a square fits every window;
@@ -122,14 +122,14 @@ void check_style(const ViewOptions& options) {
 
 }  // namespace
 
-void take_request_to_show(ViewOptions& options) {
+void take_request_to_show(ViewOptions& options, bool of_page) {
   options.looks.check_for_action();
   std::string left_out;
   const auto takes = [&](const std::string& id) {
     // Window and page have sizes and engines of their own, and draw with as many threads as there are.
     if (id == "size" || id == "engine" || id == "threads") return false;
     const RequestOption<PictureRequest>* const row = picture_option(id);
-    if (row == nullptr || row->in_window) return true;
+    if (row == nullptr || (row->in_window && (row->in_page || !of_page))) return true;
     left_out += (left_out.empty() ? "" : ", ") + setting_name(id);
     return false;
   };

@@ -8,8 +8,11 @@
 namespace bihive::cli {
 
 /// If the input is a scene file with a request, takes its input and its options (job/scene_request.h). Those that
-/// window and page do not have are left out, with a warning that names them.
-void take_request_to_show(ViewOptions& options);
+/// window and page do not have are left out, with a warning that names them. `of_page`: those that the page lacks too.
+void take_request_to_show(ViewOptions& options, bool of_page);
+
+/// Whether the user has placed the camera: it is not the scene's own, nor one from which the whole set is seen.
+bool places_camera(const ViewOptions& options);
 
 /// Fails with kBadUsage on a style, element colours or options that window and page do not have.
 void check_shown(const ViewOptions& options);

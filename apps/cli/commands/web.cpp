@@ -177,7 +177,7 @@ void say_where(const WebOptions& options, const std::vector<std::string>& urls, 
 
 void run_web(const WebOptions& asked) {
   WebOptions options = asked;
-  take_request_to_show(options.shown);
+  take_request_to_show(options.shown, /*of_page=*/true);
   if (!options.shown.given.empty() || !options.html.empty()) {
     if (options.shown.input.input.empty()) options.shown.input.input = "demo";
     check_shown(options.shown);

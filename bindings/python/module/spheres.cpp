@@ -546,7 +546,7 @@ void bind_spheres(py::module_& module) {
   module.def("options_of_pages", [] {
     std::vector<std::string> names;
     for (const RequestOption<PictureRequest>& row : picture_options())
-      if (row.in_window) names.emplace_back(row.id);
+      if (row.in_window && row.in_page) names.emplace_back(row.id);
     return names;
   });
   module.def("actions", look_action_names);

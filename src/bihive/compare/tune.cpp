@@ -7,6 +7,7 @@
 
 #include "bihive/base/parallel.h"
 #include "bihive/base/timer.h"
+#include "bihive/base/watch.h"
 #include "bihive/compare/run_queries.h"
 #include "bihive/compare/sweep.h"
 #include "bihive/math/quartiles.h"
@@ -20,6 +21,7 @@ constexpr std::size_t kTimedAtMost = 8;
 constexpr double kCalibrationMs = 50;
 constexpr double kRoundMs = 10;
 constexpr std::int64_t kFirstRounds = 3;  // of all candidates; those that remain get as many again, and so on
+constexpr double kShareOfBuilds = 0.3;    // of the progress
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Built {
@@ -44,7 +46,7 @@ class Tuner {
     tuning_.kinds = options_.kinds;
     if (tuning_.kinds.empty())
       for (const QueryKindRow& kind : kQueryKinds) tuning_.kinds.push_back(kind.kind);
-    Result<std::vector<AnsweredSet>> sets = answered_sets(scene_, tuning_.kinds, options_.count, tuning_.threads);
+    Result<std::vector<AnsweredSet>> sets = answers();
     if (!sets) return sets.error();
     sets_ = std::move(*sets);
     for (const AnsweredSet& one : sets_) tuning_.queries.push_back(one.set.size());
@@ -64,6 +66,7 @@ class Tuner {
       rank_by_counts();
     }
     halve_by_the_clock();
+    if (work_.cancelled()) return cancelled_error();
     return std::move(tuning_);
   }
 
@@ -73,12 +76,28 @@ class Tuner {
   Tuning tuning_;
   std::vector<AnsweredSet> sets_;
   std::vector<Built> built_;
+  WatchedWork work_;
+  double builds_ = 0;
+
+  // Queries in parallel must not throw, so they are not watched; work_ is asked between them.
+  Result<std::vector<AnsweredSet>> answers() const {
+    const Unwatched unwatched;
+    return answered_sets(scene_, tuning_.kinds, options_.count, tuning_.threads);
+  }
+
+  void report(double done) {
+    work_.report(done);
+    if (options_.progress) options_.progress(done);
+  }
 
   static std::int64_t max_prims_of(const Built& one) { return one.candidate.parameters.max_prims; }
 
   Status add(const StructureParameters& parameters) {
     Result<StructurePointer> structure = tuning_.row.build(scene_.spheres, parameters, tuning_.threads);
     if (!structure) return structure.error();
+    if (work_.cancelled()) return cancelled_error();
+    const Unwatched unwatched;
+    report(kShareOfBuilds * ++builds_ / double(1 + std::size(kMaxPrims) + std::size(kCutLevels)));
     Built one;
     one.structure = std::move(*structure);
     const StructureFacts facts = one.structure->facts();
@@ -107,6 +126,7 @@ class Tuner {
 
   // Times groups of queries on three trees whose leaves differ much, so that the steps have different proportions.
   void calibrate() {
+    const Unwatched unwatched;
     const Timer timer;
     constexpr std::int64_t kGroups = 4;
     const std::size_t last = built_.size() - 1;
@@ -171,21 +191,29 @@ class Tuner {
       else if (racing.size() < kTimedAtMost)
         racing.push_back(&one);
     }
+    const Unwatched unwatched;
     const Timer timer;
-    const auto time_left = [&] { return timer.elapsed_ms() < options_.most_ms; };
+    const auto time_left = [&] { return timer.elapsed_ms() < options_.most_ms && !work_.cancelled(); };
+    double all = 0, done = 0;  // rounds of a candidate
+    const auto half = [](std::size_t count) { return (count + 1) / 2; };
     std::int64_t rounds = kFirstRounds;
-    const double first = static_cast<double>(racing.size());
-    for (;; rounds *= 2) {
+    for (std::size_t count = racing.size();; count = half(count), rounds *= 2) {
+      all += static_cast<double>(rounds) * static_cast<double>(count + 1);
+      if (count <= 1) break;
+    }
+    for (rounds = kFirstRounds;; rounds *= 2) {
       for (std::int64_t round = 0; round < rounds && (time_left() || own->times.empty()); ++round) {
         own->times.push_back(round_of(*own));
         for (Built* one : racing) one->times.push_back(round_of(*one));
+        done += static_cast<double>(racing.size() + 1);
+        report(kShareOfBuilds + (1 - kShareOfBuilds) * done / all);
       }
       std::stable_sort(racing.begin(), racing.end(),
                        [](const Built* a, const Built* b) { return median(a->times) < median(b->times); });
-      if (options_.progress && !racing.empty()) options_.progress(1 - (static_cast<double>(racing.size()) - 1) / first);
       if (racing.size() <= 1 || !time_left()) break;
-      racing.resize((racing.size() + 1) / 2);
+      racing.resize(half(racing.size()));
     }
+    if (!work_.cancelled()) report(1);
     for (Built& one : built_) {
       one.candidate.rounds = std::ssize(one.times);
       if (!one.times.empty()) one.candidate.ns = median(one.times);

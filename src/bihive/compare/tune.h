@@ -56,7 +56,8 @@ struct Tuning {
 /// levels too. The costs of its steps, for each kind of queries its own, come from a calibration of about 50 ms. Then
 /// rounds in turn, of about 10 ms each, until half of the candidates remain, and so on to the last one: successive
 /// halving. Counts do not depend on the machine, the choice does. Errors: an unknown structure, one without parameters,
-/// or one that cannot be built.
+/// or one that cannot be built. A Watch of the thread (base/watch.h) hears of the progress, and ends the search between
+/// two builds or rounds.
 Result<Tuning> tune_structure(const Scene& scene, const TuneOptions& options);
 
 }  // namespace bihive::workbench

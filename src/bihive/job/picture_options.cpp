@@ -79,6 +79,7 @@ Row of_part(const RequestOption<Part>& row, Part PictureRequest::*part) {
       .theme = row.theme,
       .ranks = row.ranks,
       .in_window = row.in_window,
+      .in_page = row.in_page,
       .repeatable = row.repeatable,
       .excludes = row.excludes,
       .take = [&row, part](PictureRequest& request, const std::string& text) { return row.take(request.*part, text); }};
@@ -368,7 +369,7 @@ void add_engine(Rows& rows) {
                       "Search the tree's limits that suit these spheres, in about ten seconds, as bihive tune does;\n"
                       "pictures keep their bits",
                   .theme = OptionTheme::engine,
-                  .in_window = false,
+                  .in_page = false,
                   .excludes = {"max_prims", "max_depth"},
                   .take = [](PictureRequest& request, const std::string&) -> Status {
                     request.tune = true;

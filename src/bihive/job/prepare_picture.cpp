@@ -243,8 +243,7 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
                                const FrameSource* frames) {
   if (request.tune)
     check_tuning(request.tree, name_of(kRenderEngines, engine), !is_gpu(engine) && !is_brute(structure_of(engine)));
-  if (request.tune && shows_reference_tree(request.view))
-    fail_setting("tune", " would change what " + setting_name("view") + " " + name_of(kViews, request.view) + " shows");
+  if (request.tune) check_tuned_view(request.view);
   PictureSettings& picture = input.scene.picture;
   if (const SettingValue* const transfer = request.picture.find("transfer"))
     parameter_named("transfer")->set(picture, *transfer);

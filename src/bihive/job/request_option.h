@@ -23,6 +23,7 @@ struct RequestOption {
   OptionTheme theme = OptionTheme::picture;
   ParameterRanks ranks = ParameterRanks::refused;
   bool in_window = true;
+  bool in_page = true;                     ///< with in_window
   bool repeatable = false;                 ///< kept in order with other repeatable options
   std::vector<std::string> excludes = {};  ///< ids of others
   /// The text of a switch is empty. Error: the expected and the found text.

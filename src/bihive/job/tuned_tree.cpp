@@ -9,6 +9,7 @@
 #include "bihive/base/setting_name.h"
 #include "bihive/compare/tune.h"
 #include "bihive/job/failure.h"
+#include "bihive/scene/names.h"
 
 namespace bihive {
 
@@ -51,6 +52,11 @@ void check_tuning(const TreeParameters& given, const std::string& engine, bool h
   if (!has_tree)
     fail_setting("tune", " needs a tree on the processor, and " + setting_name("engine") + " " + engine + " has none",
                  "leave " + setting_name("engine") + " out");
+}
+
+void check_tuned_view(View view) {
+  if (view == View::traversal || view == View::tree)
+    fail_setting("tune", " would change what " + setting_name("view") + " " + name_of(kViews, view) + " shows");
 }
 
 TunedTree tuned_tree(const Scene& scene, RenderEngine engine, const RenderSettings& settings,

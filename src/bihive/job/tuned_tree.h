@@ -23,6 +23,9 @@ struct TunedTree {
 /// Fails where nothing can be searched: the limits are given, or the engine of this name has no tree on the processor.
 void check_tuning(const TreeParameters& given, const std::string& engine, bool has_tree);
 
+/// Fails where the view shows the tree whose limits would change.
+void check_tuned_view(View view);
+
 /// Searches by tune_structure() (compare/tune.h), with rays from the scene's camera and, as the settings have them,
 /// shadow rays and ambient occlusion: some builds of the tree and up to ten seconds. The engine has a tree on the
 /// processor; without spheres nothing is searched. `progress` is called on the caller's thread.

@@ -1,5 +1,6 @@
 #include "bihive/viewer/pick.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,20 @@ ordered_json value_json(const FoundAttribute& attribute, const SphereSet& sphere
 }
 
 }  // namespace
+
+std::optional<std::int64_t> shown_id(const Scene& scene, std::int64_t id_in_input) {
+  const std::int64_t of_input = scene.id_in_input.empty() ? scene.spheres.size() : scene.size_of_input;
+  if (id_in_input < 0 || of_input == 0) return std::nullopt;
+  const std::int64_t copy = id_in_input / of_input;
+  std::int64_t stored = id_in_input % of_input;
+  if (!scene.id_in_input.empty()) {
+    const auto at = std::lower_bound(scene.id_in_input.begin(), scene.id_in_input.end(), stored);
+    if (at == scene.id_in_input.end() || *at != stored) return std::nullopt;
+    stored = at - scene.id_in_input.begin();
+  }
+  if (copy >= scene.spheres.images().count()) return std::nullopt;
+  return copy * scene.spheres.size() + stored;
+}
 
 std::string picked_to_json(const Picked& picked, const Scene& scene) {
   const SphereSet& spheres = scene.spheres;

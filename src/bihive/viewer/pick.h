@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "bihive/math/vec3.h"
@@ -14,6 +15,9 @@ struct Picked {
   Vec3d point;               ///< on its surface, in world units
   double distance = 0;       ///< from the eye, in world units
 };
+
+/// The shown sphere of an id of the input (input_id()), copies included; nothing if it is hidden, or there is none.
+std::optional<std::int64_t> shown_id(const Scene& scene, std::int64_t id_in_input);
 
 /// {"sphere": id, "point": [x,y,z], "distance": d, "centre": [x,y,z], "radius": r, "attributes": {name: number, text or
 /// null}}: the attributes are those that selections know by name, but for place and radius. Elements and

@@ -1,75 +1,29 @@
-#include "look_panel.h"
+#include "look_rows.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include "bihive/scene/element_colours.h"
 #include "bihive/scene/look_text.h"
 #include "bihive/scene/named_materials.h"
-#include "bihive/scene/style.h"
 #include "theme.h"
 #include "widgets.h"
 
 namespace bihive::window {
 namespace {
 
-constexpr const char* kTransparent = "none";
+// No selection means all spheres.
+bool same_selection(const std::string& a, const std::string& b) {
+  const auto is_all = [](const std::string& text) { return text.empty() || text == "all"; };
+  return a == b || (is_all(a) && is_all(b));
+}
 
 bool has_value(const std::string& action) {
   const LookActionText* const row = look_action_named(action);
   return row != nullptr && !row->value.empty();
-}
-
-// A list to choose from; the names of `choices` are stored, the empty one is shown as `otherwise`.
-bool combo(const char* name, const std::vector<std::string>& choices, const char* otherwise, std::string& chosen) {
-  label(name);
-  const std::string id = std::string("##") + name;
-  bool changed = false;
-  if (!ImGui::BeginCombo(id.c_str(), chosen.empty() ? otherwise : chosen.c_str(), ImGuiComboFlags_HeightLarge))
-    return false;
-  for (const std::string& choice : choices) {
-    if (!ImGui::Selectable(choice.empty() ? otherwise : choice.c_str(), choice == chosen)) continue;
-    changed = choice != chosen;
-    chosen = choice;
-  }
-  ImGui::EndCombo();
-  return changed;
-}
-
-bool draw_style(const SceneFacts& facts, std::string& style) {
-  if (!facts.takes_style) {
-    label("style");
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextColored(kDim, "the scene's own");
-    return false;
-  }
-  std::vector<std::string> choices = style_names();
-  choices.insert(choices.begin(), "");
-  return combo("style", choices, facts.is_file_of_spheres ? "default" : "the file's own", style);
-}
-
-// The style's, transparent, or a colour.
-bool draw_background(std::string& background) {
-  label("background");
-  const bool is_colour = !background.empty() && background != kTransparent;
-  bool changed = false;
-  const char* const shown = is_colour ? background.c_str() : background.empty() ? "the style's" : "transparent";
-  if (ImGui::BeginCombo("##background", shown)) {
-    const std::array<std::pair<const char*, const char*>, 5> choices{
-        {{"the style's", ""}, {"transparent", kTransparent}, {"white", "white"}, {"grey", "grey"}, {"black", "black"}}};
-    for (const auto& [words, value] : choices)
-      if (ImGui::Selectable(words, background == value)) {
-        changed = background != value;
-        background = value;
-      }
-    ImGui::EndCombo();
-  }
-  return changed;
 }
 
 // A menu of names, opened by an arrow beside a field.
@@ -103,17 +57,18 @@ std::vector<std::string> values_for(const LookActionText& action, const SceneFac
 
 }  // namespace
 
-bool LookPanel::EditedRow::complete() const {
+bool LookRows::EditedRow::complete() const {
   return !has_value(row.action) || !row.value.empty();
 }
 
-void LookPanel::start_anew(const ViewerLook& look) {
+void LookRows::start_anew(const ViewerLook& look) {
   rows_.clear();
   sent_.clear();
+  changed_ = rows_sent_ = false;
   for (const LookRow& row : look.rows) rows_.push_back({row, "", false});
 }
 
-std::string LookPanel::answered(const Result<std::vector<std::int64_t>>& counts, std::size_t failed_row) {
+std::string LookRows::answered(const Result<std::vector<std::int64_t>>& counts, std::size_t failed_row) {
   for (std::size_t i = 0; rows_sent_ && i < sent_.size(); ++i) {
     EditedRow& row = rows_[sent_[i]];
     row.is_fault = !counts && i == failed_row;
@@ -127,7 +82,7 @@ std::string LookPanel::answered(const Result<std::vector<std::int64_t>>& counts,
   return counts || is_said ? "" : counts.error().to_string();
 }
 
-bool LookPanel::draw_value(const SceneFacts& facts, LookRow& row) const {
+bool LookRows::draw_value(const SceneFacts& facts, LookRow& row) const {
   if (!has_value(row.action)) return false;
   ImGui::SameLine();
   const LookActionText& action = *look_action_named(row.action);
@@ -139,7 +94,7 @@ bool LookPanel::draw_value(const SceneFacts& facts, LookRow& row) const {
   return changed;
 }
 
-bool LookPanel::draw_row(const SceneFacts& facts, std::size_t number, bool& removed) {
+bool LookRows::draw_row(const SceneFacts& facts, std::size_t number, bool& removed) {
   EditedRow& edited = rows_[number];
   LookRow& row = edited.row;
   ImGui::PushID(static_cast<int>(number));
@@ -149,7 +104,7 @@ bool LookPanel::draw_row(const SceneFacts& facts, std::size_t number, bool& remo
   if (names_arrow("##names", facts.attributes, name)) row.select += (row.select.empty() ? "" : " ") + name + " ";
   ImGui::SameLine(0, space);
   removed = ImGui::Button("x", {square, 0});
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("remove this look");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Remove this look");
 
   ImGui::SetNextItemWidth(0.36F * ImGui::GetWindowWidth());
   if (ImGui::BeginCombo("##action", row.action.c_str(), ImGuiComboFlags_HeightLarge)) {
@@ -171,15 +126,7 @@ bool LookPanel::draw_row(const SceneFacts& facts, std::size_t number, bool& remo
   return changed;
 }
 
-std::optional<ViewerLook> LookPanel::draw(const Viewer& viewer) {
-  const SceneFacts& facts = viewer.facts();
-  ViewerLook look = viewer.look();
-  bool changed = draw_style(facts, look.style);
-  std::vector<std::string> element_colours = element_colour_names();
-  element_colours.insert(element_colours.begin(), "");
-  if (facts.has_elements) changed = combo("elements", element_colours, "the style's", look.element_colours) || changed;
-  changed = draw_background(look.background) || changed;
-
+void LookRows::draw(const SceneFacts& facts) {
   bool rows_changed = false;
   std::optional<std::size_t> to_remove;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -188,24 +135,43 @@ std::optional<ViewerLook> LookPanel::draw(const Viewer& viewer) {
     if (removed) to_remove = i;
   }
   if (to_remove) rows_.erase(rows_.begin() + static_cast<std::ptrdiff_t>(*to_remove));
-  for (EditedRow& row : rows_)
-    if (rows_changed || to_remove) row.words.clear();
-  if (ImGui::Button("add a look for a selection", {-1, 0})) rows_.push_back({{"", "colour", ""}, "", false});
-  if (!changed && !rows_changed && !to_remove) return std::nullopt;
+  if (ImGui::Button("Add a look for a selection", {-1, 0})) begin("");
+  changed_ = changed_ || rows_changed || to_remove;
+}
 
-  // Incomplete rows wait; a change of something else is applied with the current rows.
-  rows_sent_ = rows_changed || to_remove;
-  if (rows_sent_) {
-    look.rows.clear();
-    sent_.clear();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (!rows_[i].complete()) continue;
-      sent_.push_back(i);
-      look.rows.push_back(rows_[i].row);
-    }
+std::optional<std::string> LookRows::value(const std::string& select, const std::string& action) const {
+  for (const EditedRow& one : rows_)
+    if (same_selection(one.row.select, select) && one.row.action == action) return one.row.value;
+  return std::nullopt;
+}
+
+void LookRows::set(const std::string& select, const std::string& action, const std::optional<std::string>& value) {
+  const auto same = [&](const EditedRow& one) {
+    return same_selection(one.row.select, select) && one.row.action == action;
+  };
+  changed_ = true;
+  if (!value) {
+    std::erase_if(rows_, same);
+    return;
   }
-  if (look == viewer.look()) return std::nullopt;
-  return look;
+  const auto at = std::find_if(rows_.begin(), rows_.end(), same);
+  if (at == rows_.end())
+    rows_.push_back({{select, action, *value}, "", false});
+  else
+    at->row.value = *value;
+}
+
+void LookRows::put_into(ViewerLook& look) {
+  rows_sent_ = std::exchange(changed_, false);
+  if (!rows_sent_) return;
+  look.rows.clear();
+  sent_.clear();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].words.clear();
+    if (!rows_[i].complete()) continue;
+    sent_.push_back(i);
+    look.rows.push_back(rows_[i].row);
+  }
 }
 
 }  // namespace bihive::window

@@ -1,51 +1,21 @@
-#include "effects_panel.h"
+#include "section_controls.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 
 #include "bihive/io/cell_options.h"
 #include "bihive/scene/camera_lights.h"
+#include "bihive/scene/colour_maps.h"
+#include "bihive/scene/element_colours.h"
 #include "bihive/scene/names.h"
-#include "theme.h"
 #include "widgets.h"
 
 namespace bihive::window {
 namespace {
-
-bool group(const char* name) {
-  return ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_None);
-}
-
-// A name from a list; the empty one is shown as `otherwise`.
-bool choice(const char* name, const char* otherwise, const std::vector<std::string>& names, std::string& chosen) {
-  label(name);
-  bool changed = false;
-  const std::string id = std::string("##") + name;
-  if (!ImGui::BeginCombo(id.c_str(), chosen.empty() ? otherwise : chosen.c_str(), ImGuiComboFlags_HeightLarge))
-    return false;
-  if (ImGui::Selectable(otherwise, chosen.empty())) {
-    changed = !chosen.empty();
-    chosen.clear();
-  }
-  for (const std::string& one : names)
-    if (ImGui::Selectable(one.c_str(), one == chosen)) {
-      changed = one != chosen;
-      chosen = one;
-    }
-  ImGui::EndCombo();
-  return changed;
-}
-
-void check(const char* name, bool& value) {
-  label(name);
-  ImGui::Checkbox((std::string("##") + name).c_str(), &value);
-}
 
 // Numbers of the slider are rounded to few digits, so that 0.30000001 is never shown.
 void angle_slider(const char* name, double& value, double min, double max, const char* format) {
@@ -112,6 +82,13 @@ bool number_slider(const Parameter& parameter, SettingValue& value) {
   return true;
 }
 
+// The long label where there is room.
+std::string title_of_control(const Parameter& parameter) {
+  const std::string longer = sentence(parameter.long_label);
+  const float room = 0.36F * ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x;
+  return !longer.empty() && ImGui::CalcTextSize(longer.c_str()).x < room ? longer : sentence(parameter.label);
+}
+
 bool is_on(std::string_view id, const PictureSettings& settings) {
   const SettingValue value = parameter_named(id)->get(settings);
   if (const bool* const flag = std::get_if<bool>(&value)) return *flag;
@@ -167,67 +144,41 @@ struct ColourByParts {
 
 }  // namespace
 
-bool EffectsPanel::text(const char* name, const char* hint, std::string& value) {
-  label(name);
-  const std::string id = std::string("##") + name;
-  std::string shown = edited_field_ == name ? edited_text_ : value;
-  ImGui::InputTextWithHint(id.c_str(), hint, &shown);
-  if (ImGui::IsItemActive()) {
-    edited_field_ = name;
-    edited_text_ = shown;
-  } else if (edited_field_ == name) {
-    edited_field_.clear();
-  }
-  if (!ImGui::IsItemDeactivatedAfterEdit() || shown == value) return false;
-  value = shown;
-  return true;
-}
-
-bool EffectsPanel::number(const char* name, const char* hint, double otherwise, double& value) {
-  std::string shown = value == otherwise ? "" : fmt::format("{:g}", value);
-  if (!text(name, hint, shown)) return false;
-  char* end = nullptr;
-  const double given = std::strtod(shown.c_str(), &end);
-  const bool is_number = !shown.empty() && *end == '\0' && std::isfinite(given) && given >= 0;
-  value = is_number ? given : otherwise;
-  return true;
-}
-
-void EffectsPanel::parameter(const Parameter& parameter, LayeredSettings& picture) {
+void SectionControls::parameter(const Parameter& parameter, LayeredSettings& picture) {
   SettingValue value = picture.value(parameter);
-  const std::string title(parameter.label);
+  const std::string title = title_of_control(parameter);
   bool changed = false;
   switch (parameter.kind) {
     case ParameterKind::flag:
-      label(title.c_str());
+      label(title);
       changed = flag(parameter, value);
       break;
     case ParameterKind::whole:
-      label(title.c_str());
+      label(title);
       changed = whole_slider(parameter, value);
       break;
     case ParameterKind::number:
       if (has_slider(parameter)) {
-        label(title.c_str());
+        label(title);
         changed = number_slider(parameter, value);
       } else {
         constexpr double kNone = -1;
         const double* const before = std::get_if<double>(&value);
         double shown = before != nullptr ? *before : kNone;
-        changed = number(title.c_str(), std::string(parameter.empty_means).c_str(), kNone, shown);
+        changed = fields_.number(title, std::string(parameter.empty_means).c_str(), kNone, shown);
         if (shown != kNone) value = shown;
         if (shown == kNone || (shown == 0 && parameter.nullable)) value = {};
       }
       break;
     case ParameterKind::choice:
-      label(title.c_str());
+      label(title);
       changed = name(parameter, value);
       break;
     case ParameterKind::text:
     case ParameterKind::colour: {
       const auto* const before = std::get_if<std::string>(&value);
       std::string shown = before != nullptr ? *before : "";
-      changed = text(title.c_str(), parameter.empty_means.empty() ? "none" : parameter.empty_means.data(), shown);
+      changed = fields_.text(title, parameter.empty_means.empty() ? "none" : parameter.empty_means.data(), shown);
       value = shown;
       if (parameter.nullable && shown.empty()) value = {};
     }
@@ -235,7 +186,7 @@ void EffectsPanel::parameter(const Parameter& parameter, LayeredSettings& pictur
   if (changed && fits(parameter, value)) picture.user.set(parameter.id, value);
 }
 
-void EffectsPanel::parameters(ParameterGroup group, ViewerSettings& settings) {
+void SectionControls::parameters(ParameterGroup group, ViewerSettings& settings) {
   for (const Parameter* const row : controls_of(group)) {
     ImGui::BeginDisabled(is_off(*row, settings));
     parameter(*row, settings.picture);
@@ -246,24 +197,26 @@ void EffectsPanel::parameters(ParameterGroup group, ViewerSettings& settings) {
   }
 }
 
-bool EffectsPanel::draw_colours(const SceneFacts& facts, ViewerLook& look) {
+bool SectionControls::draw_colours(const SceneFacts& facts, ViewerLook& look, ColourRanges& ranges) {
   ColourByParts parts(look.colour_by);
-  bool changed = choice("colour by", facts.is_file_of_spheres ? "the style's colours" : "the file's colours",
+  bool changed = choice("Colour by", facts.is_file_of_spheres ? "the style's colours" : "the file's colours",
                         facts.attributes, parts.attribute);
   if (changed) parts.range.clear();  // another attribute has another range
   ImGui::BeginDisabled(parts.attribute.empty());
-  changed = choice("map", "automatic", colour_map_names(), parts.map) || changed;
-  changed = text("range", "MIN,MAX: all values", parts.range) || changed;
+  changed = choice("Map", "automatic", colour_map_names(), parts.map) || changed;
+  changed = fields_.text("Range", "MIN,MAX: all values", parts.range) || changed;
+  if (!parts.attribute.empty()) changed = ranges.draw(parts.attribute, parts.range) || changed;
   bool log = parts.log == "log";
-  check("logarithmic", log);
-  changed = changed || log != (parts.log == "log");
+  changed = check("Logarithmic", log) || changed;
   parts.log = log ? "log" : "";
   ImGui::EndDisabled();
   if (changed) look.colour_by = parts.text();
-  return text("unknown", "grey", look.nan_colour) || changed;
+  changed = fields_.text("Unknown numbers", "grey", look.nan_colour) || changed;
+  if (!facts.has_elements) return changed;
+  return choice("Elements", "the style's colours", element_colour_names(), look.element_colours) || changed;
 }
 
-bool EffectsPanel::draw_light(ViewerSettings& settings, ViewerLook& look) {
+bool SectionControls::draw_light(ViewerSettings& settings, ViewerLook& look) {
   constexpr const char* kOwn = "my own";
   std::vector<std::string> names;
   for (const auto& preset : light_presets()) names.push_back(preset.first);
@@ -272,7 +225,7 @@ bool EffectsPanel::draw_light(ViewerSettings& settings, ViewerLook& look) {
   const bool own = own_lights_ || (!look.lights.empty() && !is_preset);
   std::string chosen = own ? kOwn : is_preset ? look.lights.front() : "";
   names.emplace_back(kOwn);
-  bool changed = choice("lights", "the style's", names, chosen);
+  bool changed = choice("Lights", "the style's", names, chosen);
   if (changed) {
     own_lights_ = chosen == kOwn;
     changed = !own_lights_;
@@ -280,7 +233,7 @@ bool EffectsPanel::draw_light(ViewerSettings& settings, ViewerLook& look) {
   }
   if (own) {
     std::string written = joined(look.lights);
-    if (text("my lights", "from:-1,1,1::1:20", written)) {
+    if (fields_.text("My lights", "from:-1,1,1::1:20", written)) {
       look.lights = words_of(written);
       own_lights_ = false;
       changed = true;
@@ -291,34 +244,34 @@ bool EffectsPanel::draw_light(ViewerSettings& settings, ViewerLook& look) {
           "at:X,Y,Z:COLOUR:STRENGTH:RADIUS in the world; more with spaces.\n"
           "Degrees and radius make shadows soft.");
   }
-  changed |= text("floor", "shadow, or a colour", look.floor);
+  changed |= fields_.text("Floor", "shadow, or a colour", look.floor);
   parameters(ParameterGroup::light, settings);
   return changed;
 }
 
-bool EffectsPanel::draw_lines(const SceneFacts& facts, ViewerSettings& settings, ViewerLook& look) {
+bool SectionControls::draw_lines(const SceneFacts& facts, ViewerSettings& settings, ViewerLook& look) {
   parameters(ParameterGroup::lines, settings);
-  return choice("between", facts.is_file_of_spheres ? "the style's lines" : "the file's lines", facts.attributes,
+  return choice("Between", facts.is_file_of_spheres ? "the style's lines" : "the file's lines", facts.attributes,
                 look.crease);
 }
 
-void EffectsPanel::draw_lens(ViewerSettings& settings) {
+void SectionControls::draw_lens(ViewerSettings& settings) {
   Camera& camera = settings.camera;
   const bool parallel = camera.projection == Projection::orthographic;
   ImGui::BeginDisabled(parallel);
-  angle_slider("angle", camera.fov_deg, 1, 120, "%.0f deg");
+  angle_slider("Angle", camera.fov_deg, 1, 120, "%.0f deg");
   const bool was_open = camera.aperture > 0;
-  if (number("aperture", "0: all is sharp", 0, camera.aperture) && camera.aperture > 0 && !was_open)
+  if (fields_.number("Aperture", "0: all is sharp", 0, camera.aperture) && camera.aperture > 0 && !was_open)
     settings.picture.user.reset("samples_auto");  // a lens needs many samples everywhere
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the lens's radius, in the file's units");
   ImGui::EndDisabled();
 
   // The focus. A choice still without its distance or spheres stays.
   ImGui::BeginDisabled(camera.aperture == 0);
-  constexpr std::array<const char*, 3> kKinds{"middle", "a distance", "selected spheres"};
+  constexpr std::array<const char*, 3> kKinds{"the middle", "a distance", "selected spheres"};
   const int given = !settings.focus_on.empty() ? 2 : camera.focus > 0 ? 1 : 0;
   int kind = focus_kind_ < 0 ? given : focus_kind_;
-  label("sharp");
+  label("Sharp");
   if (ImGui::Combo("##sharp", &kind, kKinds.data(), static_cast<int>(kKinds.size()))) {
     focus_kind_ = kind == given || kind == 0 ? -1 : kind;
     if (kind == 0) {
@@ -326,16 +279,16 @@ void EffectsPanel::draw_lens(ViewerSettings& settings) {
       camera.focus = 0;
     }
   }
-  if (kind == 1 && number("distance", "", 0, camera.focus)) {
+  if (kind == 1 && fields_.number("Distance", "", 0, camera.focus)) {
     settings.focus_on.clear();
     focus_kind_ = -1;
   }
-  if (kind == 2 && text("spheres", "resname LIG", settings.focus_on)) focus_kind_ = -1;
+  if (kind == 2 && fields_.text("Spheres", "resname LIG", settings.focus_on)) focus_kind_ = -1;
   ImGui::EndDisabled();
   parameters(ParameterGroup::tone, settings);
 }
 
-void EffectsPanel::draw_cell(const SceneFacts& facts, ViewerSettings& settings) {
+void SectionControls::draw_cell(const SceneFacts& facts, ViewerSettings& settings) {
   const bool gpu = settings.engine == ViewerEngine::gpu;
   const auto words = [](const std::array<std::int32_t, 3>& counts) {
     return fmt::format("{}x{}x{}", counts[0], counts[1], counts[2]);
@@ -344,7 +297,7 @@ void EffectsPanel::draw_cell(const SceneFacts& facts, ViewerSettings& settings) 
   parameters(ParameterGroup::cell, settings);
   const std::string own = words(facts.copies);
   std::string copies = settings.replicate ? words(*settings.replicate) : "";
-  if (text("copies", own.c_str(), copies)) {
+  if (fields_.text("Copies", own.c_str(), copies)) {
     const Result<std::array<std::int32_t, 3>> counts = copies_from_text(copies);
     if (counts) settings.replicate = *counts;
     if (copies.empty()) settings.replicate.reset();
@@ -355,23 +308,33 @@ void EffectsPanel::draw_cell(const SceneFacts& facts, ViewerSettings& settings) 
         "%s", gpu ? "the CPU engine alone draws cells and copies" : "AxBxC: copies along the vectors of the cell");
 }
 
-void EffectsPanel::start_anew() {
-  edited_field_.clear();
-  edited_text_.clear();
+void SectionControls::start_anew() {
+  fields_.forget();
   own_lights_ = false;
   focus_kind_ = -1;
 }
 
-void EffectsPanel::draw(const Viewer& viewer, ViewerSettings& settings, ViewerLook& look, bool& look_changed) {
-  const SceneFacts& facts = viewer.facts();
-  ImGui::Dummy({0, ImGui::GetStyle().ItemSpacing.y * 0.4F});
-  look_changed = false;
-  if (group("colours")) look_changed = draw_colours(facts, look) || look_changed;
-  if (group("light")) look_changed = draw_light(settings, look) || look_changed;
-  if (group("lines")) look_changed = draw_lines(facts, settings, look) || look_changed;
-  if (group("lens")) draw_lens(settings);
-  if (group("labels")) parameters(ParameterGroup::labels, settings);
-  if (facts.has_cell && group("cell")) draw_cell(facts, settings);
+bool SectionControls::draw(const CardSection& section, const SceneFacts& facts, ViewerSettings& settings,
+                           ViewerLook& look) {
+  if (section.group == ParameterGroup::picture) return parameters(section.group, settings), false;
+  if (section.group == ParameterGroup::cell && !facts.has_cell) return false;
+  if (!group(std::string(section.title).c_str())) return false;
+  switch (section.group) {
+    case ParameterGroup::light:
+      return draw_light(settings, look);
+    case ParameterGroup::lines:
+      return draw_lines(facts, settings, look);
+    case ParameterGroup::tone:
+      draw_lens(settings);
+      return false;
+    case ParameterGroup::cell:
+      draw_cell(facts, settings);
+      return false;
+    case ParameterGroup::picture:
+    case ParameterGroup::labels:
+      parameters(section.group, settings);
+  }
+  return false;
 }
 
 }  // namespace bihive::window
