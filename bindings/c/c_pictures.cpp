@@ -261,7 +261,8 @@ int bihive_render(bihive_scene* scene, int width, int height, int samples, int t
     const bool changes_spheres = !request.looks.looks.empty() || !request.looks.element_colours.empty() || !periodic ||
                                  asked_for.sticks.bonds != Bonds::none || asked_for.arrows.any() ||
                                  asked_for.traces.any() || asked_for.hydrogen_bonds.any() || asked_for.trails.any() ||
-                                 request.links.any() || asked_for.shows_cavities();
+                                 !request.links.empty() || asked_for.links.shows_contacts() ||
+                                 asked_for.shows_cavities();
     std::optional<LoadedScene> changed;
     put_light(scene->as_read, scene->loaded.scene);
     if (changes_spheres) changed = scene->loaded;

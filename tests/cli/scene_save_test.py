@@ -26,7 +26,7 @@ VALUES = {
     "arrows": "x,y,z", "arrow_select": "chain A", "arrow_scale": "2", "arrow_share": "0.2", "arrow_radius": "0.2", "arrow_pivot": "middle", "arrow_colour": "b_factor:magma:0,60",
     "trace": "chain", "trace_select": "name CA", "trace_radius": "b_factor/50", "trace_atoms": "shown",
     "trail": "5", "trail_select": "chain A", "trail_radius": "0.1", "hbond_radius": "0.05", "hbond_colour": "yellow",
-    "show_cavities": "1.4", "links": "pairs.csv", "link_radius": "force:0.1", "link_colour": "force:magma:0,9",
+    "show_cavities": "1.4", "show_contacts": "0.5", "links": "pairs.csv", "link_radius": "force:0.1", "link_colour": "force:magma:0,9",
 }
 IMPLIED = {"nan_colour": ["--colour-by", "b_factor"]}
 

@@ -54,7 +54,7 @@ class Table(ProgramTest):
                 continue
             with self.subTest(row["id"]):
                 value = {"bond_reach": 1.4, "arrows": "x,y,r", "arrow_select": "index 1", "arrow_colour": "x:magma", "trace_select": "index 0 2",
-                         "trace_radius": "r/2", "trace_atoms": "shown", "trail": 2, "trail_select": "index 1", "show_cavities": 0.25}.get(row["id"]) or values[row["kind"]](row)
+                         "trace_radius": "r/2", "trace_atoms": "shown", "trail": 2, "trail_select": "index 1", "show_cavities": 0.25, "show_contacts": 0.5, "link_radius": "area:0.1", "link_colour": "area:magma"}.get(row["id"]) or values[row["kind"]](row)
                 whole, _, key = row["path"].partition(".")
                 picture = {whole: {key: value} if key else {} if whole == "ambient_occlusion" else value}
                 # A part of something whose presence has a number of its own is set with it.
@@ -68,10 +68,10 @@ class Table(ProgramTest):
                     picture["bonds"] = bonds
                     extra = ["--bonds", bonds]
                 # The same for arrows, tubes, trails and hydrogen bonds.
-                for kind, on in (("arrows", "x,y,r"), ("trace", "mol"), ("trail", 1), ("hbonds", True)):
-                    if row["id"].startswith(kind.rstrip("s") + "_"):
+                for kind, on in (("arrows", "x,y,r"), ("trace", "mol"), ("trail", 1), ("hbonds", True), ("show_contacts", 0.5)):
+                    if row["id"].startswith("link_" if kind == "show_contacts" else kind.rstrip("s") + "_"):
                         picture[kind] = on
-                        extra = [f"--{kind}"] if on is True else [f"--{kind}", str(on)]
+                        extra = ["--" + kind.replace("_", "-"), *([] if on is True else [str(on)])]
                 of_frame = {"frame": 2} if row["id"].startswith("trail") else {}
                 if of_frame:
                     extra = [*extra, "--frame", "2"]

@@ -41,7 +41,7 @@ TEST(PictureOptions, EachHasAnIdOfItsOwnAndSaysHowItWorksOnRanks) {
             .contains(std::string(row.id)) ||
         row.id.starts_with("arrow") || row.id.starts_with("link") || row.id.starts_with("trace") ||
         row.id.starts_with("trail") || row.id.starts_with("hbond") || row.id == "no_hbonds" ||
-        row.id == "show_cavities" || row.id == "tune";
+        row.id == "show_cavities" || row.id == "show_contacts" || row.id == "tune";
     EXPECT_EQ(row.ranks == ParameterRanks::refused, is_of_several) << row.id;
   }
   for (const RequestOption<PictureRequest>& row : picture_options())

@@ -173,6 +173,40 @@ TEST(ViewerLook, the_user_chooses_sticks) {
   EXPECT_FALSE(viewer.settings().picture.user.has("bonds"));
 }
 
+TEST(ViewerLook, contacts_are_links_of_the_radii_as_read) {
+  Viewer viewer;
+  viewer.resize(kViewWidth, kViewHeight);
+  ASSERT_TRUE(viewer.load("x,y,z,r\n0,0,0,1\n1.5,0,0,1\n4,0,0,1\n", "three.csv"));
+  const auto set = [&](const char* id, const SettingValue& value) {
+    ViewerSettings settings = viewer.settings();
+    settings.picture.user.set(id, value);
+    return viewer.set(settings);
+  };
+  // Two halves of one link; with a probe the gap of 0.5 is a contact too.
+  ASSERT_TRUE(set("show_contacts", 0.0));
+  EXPECT_EQ(viewer.scene().sticks.size(), 2);
+  ASSERT_TRUE(set("show_contacts", 0.5));
+  EXPECT_EQ(viewer.scene().sticks.size(), 4);
+  ViewerLook look;
+  look.rows.push_back({"", "radius-scale", "0.2"});
+  ASSERT_TRUE(viewer.set_look(look));
+  EXPECT_EQ(viewer.scene().sticks.size(), 4);
+
+  // Radius and colour by the column area.
+  ASSERT_TRUE(set("link_radius", std::string("area:0.01")));
+  ASSERT_TRUE(set("link_colour", std::string("area:magma")));
+  ASSERT_EQ(viewer.scene().sticks_coloured_by.size(), 1u);
+  EXPECT_EQ(viewer.scene().sticks_coloured_by[0].attribute, "area");
+  const Status refused = set("link_radius", std::string("force"));
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().to_string(), HasSubstr("there are area"));
+  ASSERT_TRUE(set("link_radius", std::string()));
+  ASSERT_TRUE(set("link_dashes", true));
+  EXPECT_GT(viewer.scene().sticks.size(), 4);
+  ASSERT_TRUE(set("show_contacts", SettingValue()));
+  EXPECT_TRUE(viewer.scene().sticks.empty());
+}
+
 TEST(ViewerLook, the_scene_tells_what_is_not_drawn) {
   Viewer viewer;
   viewer.resize(kViewWidth, kViewHeight);

@@ -327,7 +327,7 @@ test('frames shown a second are counted', async () => {
   await page.click('#thesis_cancel');
   await page.waitForFunction(() => /^Cancelled/.test(document.querySelector('#thesis_text').textContent));
   await page.click('#thesis_shown');
-  await page.waitForFunction(() => /^36 measurements, [\d.]+ to [\d.]+ frames shown a second/.test(document.querySelector('#thesis_text').textContent));
+  await page.waitForFunction(() => /^36 measurements, [\d.]+ to [\d.]+ frames shown per second/.test(document.querySelector('#thesis_text').textContent));
   const [json] = await Promise.all([page.waitForEvent('download'), page.click('#thesis_json')]);
   assert.equal(json.suggestedFilename(), 'bihive-shown-frames.json');
   const shown = JSON.parse(readFileSync(await json.path(), 'utf8'));

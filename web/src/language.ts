@@ -12,6 +12,10 @@ export interface Catalogue {
   words: Partly<Words>;
   /** Labels of the library's tables: a parameter's by its id, others as "kind.name" (label_of()). */
   labels: Record<string, string>;
+  /** Help texts of these tables by the parameter's id, of reading as "reading.id". */
+  help: Record<string, string>;
+  /** Styles by their names: what they are called, and how they look. */
+  styles: Record<string, [name: string, description: string]>;
 }
 
 const key = 'bihive-language';
@@ -36,10 +40,16 @@ const wanted = () =>
   known(new URLSearchParams(location.search).get('lang')) ?? known(remembered(key)) ?? navigator.languages.map(known).find(Boolean) ?? 'en';
 
 export let language = 'en';
-let labels: Record<string, string> = {};
+let { labels, help, styles }: Pick<Catalogue, 'labels' | 'help' | 'styles'> = { labels: {}, help: {}, styles: {} };
 
 /** The label of a parameter, or of a choice by "kind.name", in the page's language. */
 export const label_of = (id: string, english: string): string => labels[id] ?? english;
+
+/** The help text of a parameter, in the page's language. */
+export const help_of = (id: string, english: string): string => help[id] ?? english;
+
+/** Name and description of a style, in the page's language. */
+export const style_in_words = (name: string, description: string): [string, string] => styles[name] ?? [name, description];
 
 /** The control: the page is loaded again in the chosen language, and a reload brings back what it shows. */
 export function start_language(): void {
@@ -93,7 +103,7 @@ if (load) {
   try {
     const { default: catalogue } = await load();
     language = wanted();
-    labels = catalogue.labels;
+    ({ labels, help, styles } = catalogue);
     merge(words, catalogue.words);
     translate_page(catalogue.page);
     document.documentElement.lang = language;

@@ -2,7 +2,7 @@
 // [data-parameters].
 import { made } from './dom';
 import { Field, readable } from './field';
-import { label_of } from './language';
+import { help_of, label_of } from './language';
 import { is_beyond, is_in_range, is_off, note_of, slider_words, type Id, type Parameter, type Value } from './parameter';
 import type { Changes, Settings } from './protocol';
 import { Slider } from './slider';
@@ -47,7 +47,7 @@ export class ParameterControls {
   private add(row: Parameter, box: HTMLElement): void {
     const { id, kind, slider } = row;
     const why = note_of(row);
-    const attributes = { id, title: sentence(row.help), ...(why ? { 'aria-describedby': `${id}_note` } : {}) };
+    const attributes = { id, title: sentence(help_of(id, row.help)), ...(why ? { 'aria-describedby': `${id}_note` } : {}) };
     const line = made('div', { class: kind === 'flag' ? 'row check' : 'row' });
     line.append(made('label', { for: id }, sentence(label_of(id, row.long_label ?? row.label!))));
     box.append(line);

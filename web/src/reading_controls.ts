@@ -1,6 +1,6 @@
 // The controls of how a file is read: one for each row of the library's table (src/bihive/io/reading_settings.h).
 import { element, made } from './dom';
-import { label_of } from './language';
+import { help_of, label_of } from './language';
 import type { BuiltIn, Facts, Reading, Source } from './protocol';
 import type { ReadingId } from './settings';
 
@@ -42,9 +42,9 @@ export class ReadingControls {
   build(rows: ReadingRow[]): void {
     this.controls = rows.map((row) => {
       const { id, kind } = row;
-      const input = made('input', { id, title: row.help, type: kind === 'flag' ? 'checkbox' : kind });
+      const input = made('input', { id, title: help_of(`reading.${id}`, row.help), type: kind === 'flag' ? 'checkbox' : kind });
       Object.assign(input, kind === 'number' ? { min: '0', step: 'any', inputMode: 'decimal' } : { spellcheck: false, autocomplete: 'off' });
-      input.placeholder = row.empty_means;
+      input.placeholder = label_of(`reading.${id}.empty`, row.empty_means);
       const box = made('div', { class: kind === 'flag' ? 'row check' : 'row' });
       box.append(made('label', { for: id }, label_of(`reading.${id}`, row.label)), input);
       input.addEventListener('change', () => this.change(row));

@@ -33,6 +33,10 @@ export interface PictureSettings {
   hbonds: boolean;
   hbond_radius: number;
   hbond_colour: [number, number, number] | string;
+  show_contacts: number | null;
+  link_radius: string;
+  link_colour: string;
+  link_dashes: boolean;
   fog: number;
   fog_start: number;
   fog_end: number;

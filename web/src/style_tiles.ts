@@ -1,5 +1,6 @@
 // The tiles of the styles, with a small picture of each. The pictures come after the first one of the scene.
 import { element } from './dom';
+import { style_in_words } from './language';
 import type { Choices } from './protocol';
 
 const addresses = import.meta.glob<string>('./styles/*.png', { query: '?url', import: 'default', eager: true });
@@ -12,11 +13,12 @@ export function build_style_tiles(styles: Choices['styles']): void {
     const [label, input, box, picture] = [
       document.createElement('label'), document.createElement('input'), document.createElement('span'), new Image(96, 72),
     ] as const;
-    label.title = description;
+    const [shown, about] = style_in_words(name, description);
+    label.title = about;
     Object.assign(input, { type: 'radio', name: 'style', value: name });
     picture.alt = '';
     pictures.push([picture, addresses[`./styles/${name}.png`] ?? '']);
-    box.append(picture, name);
+    box.append(picture, shown);
     label.append(input, box);
     return label;
   });

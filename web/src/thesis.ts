@@ -7,6 +7,7 @@ import { save } from './download';
 import { fail } from './messages';
 import type { ShownProgress, ThesisProgress } from './protocol';
 import { costs_in_words, type Costs, type Rate } from './thesis_result';
+import { words } from './words';
 
 export interface ThesisActions {
   /** `saved`: the result of a run to be continued, or ''. */
@@ -17,6 +18,7 @@ export interface ThesisActions {
   goes_on_from(result: Record<string, unknown>): boolean;
 }
 
+const texts = words.thesis;
 const png_width = 1200;
 const key = 'bihive-thesis';
 
@@ -33,14 +35,14 @@ function storage<T>(work: (store: Storage) => T): T | null {
 function rate_lines(rates: Rate[]): string[] {
   const lines: string[] = [];
   for (const { scenario, spheres, max_prims, fps } of rates) {
-    if (max_prims === null) lines.push(`Scenario ${scenario}, ${spheres} spheres, fps: BF ${fps.toPrecision(3)}`);
+    if (max_prims === null) lines.push(texts.rates(texts.scene(scenario, spheres)) + texts.brute_force(fps.toPrecision(3)));
     else lines[lines.length - 1] += `, BIH ${max_prims} ${fps.toPrecision(3)}`;
   }
   return lines;
 }
 
 function time_left(seconds: number): string {
-  return seconds < 90 ? `about ${Math.max(1, Math.round(seconds))} s left` : `about ${Math.round(seconds / 60)} min left`;
+  return seconds < 90 ? texts.seconds_left(Math.max(1, Math.round(seconds))) : texts.minutes_left(Math.round(seconds / 60));
 }
 
 interface PictureSize {
@@ -49,13 +51,13 @@ interface PictureSize {
 }
 
 // A quick run's frame rates are those of small pictures; a note beside them says so.
-const pixels = ({ width_px, height_px }: PictureSize) => `pictures of ${width_px} × ${height_px}`;
+const pixels = ({ width_px, height_px }: PictureSize) => texts.pictures(width_px, height_px);
 
 // The costs of a ray's steps on this device, and the winner at these costs; '' if unknown.
 function verdict(result: string): string {
   const { costs } = JSON.parse(result) as { costs?: Costs };
   if (!costs) return '';
-  return `Here ${costs_in_words(costs)}`;
+  return texts.here(costs_in_words(costs, texts.costs));
 }
 
 export class ThesisDialog {
@@ -90,7 +92,7 @@ export class ThesisDialog {
     this.shown.addEventListener('click', () => this.start(() => actions.show_frames(this.quick.checked ? 0.3 : 2)));
     this.cancel.addEventListener('click', () => {
       this.cancel.disabled = true;
-      this.text.textContent = 'Cancelling';
+      this.text.textContent = texts.cancelling;
       actions.cancel();
     });
     this.json.addEventListener('click', () =>
@@ -113,7 +115,7 @@ export class ThesisDialog {
   private show_saved(): void {
     const kept = this.kept();
     const running = !this.cancel.hidden;
-    this.run.textContent = kept === '' ? 'Run' : 'Continue';
+    this.run.textContent = kept === '' ? texts.run : texts.go_on;
     this.anew.hidden = running || kept === '';
   }
 
@@ -124,7 +126,7 @@ export class ThesisDialog {
 
   private start(run: () => void): void {
     this.set_running(true);
-    this.text.textContent = 'Starting';
+    this.text.textContent = words.starting;
     this.bar.value = 0;
     element('thesis_charts').replaceChildren();
     element('thesis_progress').hidden = false;
@@ -144,8 +146,8 @@ export class ThesisDialog {
     if (this.cancel.hidden || this.cancel.disabled) return;
     this.bar.value = done;
     this.text.textContent =
-      `Scenario ${scenario}, ${spheres} spheres, ${max_prims === null ? 'wide engine' : `BIH ${max_prims}`}, ` +
-      (turning ? 'turning' : 'at rest');
+      `${texts.scene(scenario, spheres)}, ${max_prims === null ? texts.wide_engine : `BIH ${max_prims}`}, ` +
+      (turning ? texts.turning : texts.at_rest);
   }
 
   shown_done(cancelled: boolean, result: string): void {
@@ -157,19 +159,15 @@ export class ThesisDialog {
     this.json.hidden = configurations.length === 0;
     this.bar.value = cancelled ? this.bar.value : 1;
     const all = configurations.map(({ fps }) => fps);
-    this.text.textContent =
-      all.length === 0
-        ? 'Cancelled before a configuration was complete.'
-        : `${cancelled ? 'Cancelled: ' : ''}${all.length} measurements, ` +
-          `${Math.min(...all).toFixed(1)} to ${Math.max(...all).toFixed(1)} frames shown a second.`;
+    const found = texts.shown(all.length, Math.min(...all).toFixed(1), Math.max(...all).toFixed(1));
+    this.text.textContent = all.length === 0 ? texts.cancelled_before : cancelled ? texts.cancelled(found) : found;
   }
 
   progress(progress: ThesisProgress): void {
     if (this.cancel.hidden || this.cancel.disabled) return;
     this.bar.value = progress.done;
-    this.text.textContent =
-      `${progress.configurations_done} of ${progress.configurations} configurations, ${time_left(progress.seconds_left)}: ` +
-      `Scenario ${progress.scenario}, ${progress.spheres} spheres`;
+    const { configurations_done, configurations, seconds_left, scenario, spheres } = progress;
+    this.text.textContent = texts.progress(configurations_done, configurations, time_left(seconds_left), texts.scene(scenario, spheres));
   }
 
   done(cancelled: boolean, result: string, charts: string[]): void {
@@ -182,10 +180,10 @@ export class ThesisDialog {
     this.json.hidden = this.png.hidden = this.charts.length === 0;
     this.bar.value = cancelled ? this.bar.value : 1;
     this.text.textContent = !cancelled
-      ? `All configurations are measured, ${pixels(JSON.parse(result) as PictureSize)}. ${verdict(result)}`
+      ? `${texts.measured(pixels(JSON.parse(result) as PictureSize))} ${verdict(result)}`
       : this.charts.length > 0
-        ? 'Cancelled; what was complete is below.'
-        : 'Cancelled before a configuration was complete.';
+        ? texts.cancelled_partly
+        : texts.cancelled_before;
   }
 
   failed(message: string): void {
@@ -202,8 +200,8 @@ export class ThesisDialog {
         drift: number;
         configurations: Rate[];
       };
-      const heading = `bihive: Figure 4.4 by the ${engine.toUpperCase()} engine, ${pixels(size)}`;
-      const drifted = `Last round over first: ${drift < 1 ? '−' : '+'}${Math.abs(100 * (drift - 1)).toFixed(1)} % time`;
+      const heading = texts.heading(engine.toUpperCase(), pixels(size));
+      const drifted = texts.drift(`${drift < 1 ? '−' : '+'}${Math.abs(100 * (drift - 1)).toFixed(1)}`);
       const found = verdict(this.result);
       const about = [device, ...(found === '' ? [] : [found]), ...(rounds > 1 ? [drifted] : []), ...rate_lines(configurations)];
       save(await charts_as_png(this.charts, heading, about, png_width), `${this.file}.png`);

@@ -18,14 +18,18 @@ export interface Costs {
   configurations: number;
 }
 
+export const english_costs = {
+  ratios: (inner: string, leaf: string) =>
+    `the cost of an inner node over that of a sphere test is ${inner}, and that of a leaf over an inner node is ${leaf}`,
+  undetermined: (ratios: string) => `${ratios}, so that no winner follows.`,
+  winner: (ratios: string, winner: string, wins: number, configurations: number, percent: string) =>
+    `${ratios}. At these costs ${winner} wins ${wins} of ${configurations}, where the thesis says 7 of 9. ` +
+    `They miss a frame’s time by ${percent} %.`,
+};
+
 /** The costs of a ray's steps, with standard errors, and the winner at these costs. */
-export function costs_in_words(costs: Costs): string {
-  const ratios =
-    `the cost of an inner node over that of a sphere test is ${costs.inner_words}, and that of a leaf over an inner node ` +
-    `is ${costs.leaf_words}`;
-  if (!costs.determined) return `${ratios}, so that no winner follows.`;
-  return (
-    `${ratios}. At these costs ${costs.winner} wins ${costs.wins} of ${costs.configurations}, where the thesis says 7 of 9. ` +
-    `They miss a frame’s time by ${(100 * costs.rms).toFixed(0)} %.`
-  );
+export function costs_in_words(costs: Costs, words = english_costs): string {
+  const ratios = words.ratios(costs.inner_words, costs.leaf_words);
+  if (!costs.determined) return words.undetermined(ratios);
+  return words.winner(ratios, costs.winner, costs.wins, costs.configurations, (100 * costs.rms).toFixed(0));
 }

@@ -1,4 +1,5 @@
 // What the page says to people, as far as scripts say it. Other languages replace these, and the texts of index.html (language.ts).
+import { english_costs } from './thesis_result';
 
 let whole: Intl.NumberFormat | undefined;
 
@@ -115,6 +116,25 @@ export const words = {
     more: (count: string) => `and ${count} more`,
     nearest: (t: string) => `nearest hit so far at ${t}`,
     none_yet: 'no hit yet',
+  },
+  thesis: {
+    run: 'Run', go_on: 'Continue', cancelling: 'Cancelling', wide_engine: 'wide engine', turning: 'turning', at_rest: 'at rest',
+    scene: (scenario: number, spheres: number) => `Scenario ${scenario}, ${spheres} spheres`,
+    rates: (scene: string) => `${scene}, fps: `,
+    brute_force: (fps: string) => `BF ${fps}`,
+    seconds_left: (seconds: number) => `about ${seconds} s left`,
+    minutes_left: (minutes: number) => `about ${minutes} min left`,
+    progress: (done: number, all: number, left: string, scene: string) => `${done} of ${all} configurations, ${left}: ${scene}`,
+    pictures: (width: number, height: number) => `pictures of ${width} × ${height}`,
+    measured: (pictures: string) => `All configurations are measured, ${pictures}.`,
+    cancelled: (text: string) => `Cancelled: ${text}`,
+    cancelled_partly: 'Cancelled; what was complete is below.',
+    cancelled_before: 'Cancelled before a configuration was complete.',
+    shown: (count: number, least: string, most: string) => `${count} measurements, ${least} to ${most} frames shown per second.`,
+    here: (costs: string) => `Here ${costs}`,
+    costs: english_costs,
+    heading: (engine: string, pictures: string) => `bihive: Figure 4.4 by the ${engine} engine, ${pictures}`,
+    drift: (percent: string) => `Last round over first: ${percent} % time`,
   },
   undo: {
     undo: 'Undo', redo: 'Redo',

@@ -90,6 +90,10 @@ class RenderOptions(ReadOptions, total=False):
     hbonds: Optional[bool]  # Draw hydrogen bonds as dashes, found by distance and angle (docs/pictures.md)
     hbond_radius: Optional[float]  # Radius of the dashes of hydrogen bonds in world units (0.06)
     hbond_colour: Optional[Colour]  # Colour of hydrogen bonds (blue)
+    show_contacts: Optional[float]  # Draw a link between each two spheres in contact, found with a probe of this radius (docs/measures.md) (none)
+    link_radius: Optional[Union[float, str]]  # Radius of links in world units, or F times a column such as area (a quarter of the smaller sphere's)
+    link_colour: Optional[Union[Colour, str]]  # Colour of links, or a column that colours them, such as area:magma (their spheres')
+    link_dashes: Optional[bool]  # Draw links as dashes
     show_cavities: Optional[float]  # In place of the spheres draw the walls of the cavities that they enclose, where a probe of this radius can be (docs/measures.md) (none)
     exposure: Optional[float]  # Stops: all light times 2^EV; the background keeps its colour (the style's)
     tone: Optional[Literal["none", "soft", "filmic"]]  # Curve for light that is too bright for the picture (the style's)
@@ -135,9 +139,6 @@ class RenderOptions(ReadOptions, total=False):
     font: Optional[Path]  # Font of titles, legends and the rest: TrueType or OpenType (DejaVu Sans)
     no_labels: Optional[bool]  # None of the labels that the scene file or the style asks for
     links: Optional[Union[Path, npt.ArrayLike, Mapping[str, npt.ArrayLike]]]  # Draw a stick for each row of a CSV file, whose columns first and second are the numbers of two spheres, from 0
-    link_radius: Optional[Union[float, str]]  # Radius of these sticks, or F times a column (a quarter of the smaller sphere's)
-    link_colour: Optional[Union[Colour, str]]  # Colour of these sticks, or a column that colours them (their spheres')
-    link_dashes: Optional[bool]  # Draw these sticks as dashes
 
 
 class FilmOptions(RenderOptions, total=False):

@@ -17,6 +17,7 @@
 #include "bihive/job/messages.h"
 #include "bihive/scene/arrows.h"
 #include "bihive/scene/bonds.h"
+#include "bihive/scene/contact_links.h"
 #include "bihive/scene/hydrogen_bonds.h"
 #include "bihive/scene/links.h"
 #include "bihive/scene/traces.h"
@@ -43,17 +44,6 @@ void refuse_distributed(const WholeSet* whole, bool any, const char* id, const s
   if (any && whole != nullptr)
     fail_setting(id, fault + " spheres that are distributed over ranks",
                  hint.empty() ? "leave " + setting_name(id) + " out" : hint);
-}
-
-// Refuses what is stated about links where there are none.
-void check_links(const Links& links) {
-  const auto check = [&](bool stated, const char* id) {
-    if (!links.any() && stated)
-      fail_setting(id, " is for pictures with links, and this one has none", "add " + setting_name("links") + " FILE");
-  };
-  check(!links.radius.empty(), "link_radius");
-  check(!links.colour.empty(), "link_colour");
-  check(links.dashed, "link_dashes");
 }
 
 // ---- Drawing ----------------------------------------------------------------------------------------------------
@@ -105,13 +95,13 @@ void draw_arrows(const Arrows& arrows, bool is_of_film, Scene& scene) {
                     added.longest, added.radius_of_longest, setting_name("arrow_scale")));
 }
 
-void draw_links(const Links& links, bool is_of_film, Scene& scene) {
-  const LinkTable table = value_or_fail(links_from_csv(value_or_fail(read_file(links.file)), links.file));
+// `no_rows`: why there may be no link.
+void draw_links(const LinkTable& table, const Links& links, const std::string& no_rows, bool is_of_film, Scene& scene) {
   const Result<AddedLinks> done = add_links(scene, table, links);
   const AddedLinks& added = added_or_fail(done);
   if (is_of_film) return check_fixed_range("link_colour", links.colour, scene);
   if (added.count == 0)
-    warn("there is no link: " + std::string(table.pairs.empty() ? "the table has no rows"
+    warn("there is no link: " + std::string(table.pairs.empty() ? no_rows
                                             : added.unknown > 0 ? "their radii are unknown"
                                                                 : "radii are 0, or a sphere of each is hidden"));
   else if (added.unknown > 0)
@@ -175,15 +165,26 @@ ChosenSticks choose_sticks(const PictureRequest& request, const Scene& scene, co
   refuse_settings(request, trails.any(), {"trail_"}, "trails", "add " + setting_name("trail") + " N");
   refuse_distributed(whole, trails.any(), "trail", ": no trails are drawn behind");
 
-  check_links(request.links);
-  return {bonds, hydrogen_bonds, arrows, traces, trails};
+  const Links& links = picture.links;
+  refuse_settings(request, links.shows_contacts() || !request.links.empty(), {"link_"}, "links",
+                  "add " + setting_name("links") + " FILE or " + setting_name("show_contacts") + " R");
+  refuse_distributed(whole, links.shows_contacts(), "show_contacts", ": no contacts are found between");
+  return {bonds, hydrogen_bonds, arrows, traces, trails, links};
+}
+
+std::optional<LinkTable> find_contacts(const ChosenSticks& sticks, const Scene& scene, std::int64_t threads) {
+  if (!sticks.links.shows_contacts()) return std::nullopt;
+  Result<LinkTable> contacts = contact_links(scene, sticks.links.contact_probe, static_cast<int>(threads));
+  if (!contacts) fail_setting("show_contacts", ": " + contacts.error().message, contacts.error().hint);
+  return std::move(*contacts);
 }
 
 void scale_balls(const ChosenSticks& sticks, Scene& scene) {
   if (sticks.bonds.bonds != Bonds::none) done_or_fail_bonds(scale_balls(scene, sticks.bonds));
 }
 
-void draw_sticks(const ChosenSticks& sticks, const PictureRequest& request, const FrameSource* frames, Input& input) {
+void draw_sticks(const ChosenSticks& sticks, const std::optional<LinkTable>& contacts, const PictureRequest& request,
+                 const FrameSource* frames, Input& input) {
   Scene& scene = input.scene;
   const bool is_of_film = request.fixed.has_value();
   const int threads = static_cast<int>(request.threads);
@@ -193,7 +194,11 @@ void draw_sticks(const ChosenSticks& sticks, const PictureRequest& request, cons
   }
   if (sticks.arrows.any()) draw_arrows(sticks.arrows, is_of_film, scene);
   if (sticks.traces.any()) draw_traces(sticks.traces, scene);
-  if (request.links.any()) draw_links(request.links, is_of_film, scene);
+  if (!request.links.empty()) {
+    const LinkTable table = value_or_fail(links_from_csv(value_or_fail(read_file(request.links)), request.links));
+    draw_links(table, sticks.links, "the table has no rows", is_of_film, scene);
+  }
+  if (contacts) draw_links(*contacts, sticks.links, "no two spheres are in contact", is_of_film, scene);
   if (sticks.hydrogen_bonds.any()) {
     const Result<std::int64_t> added = add_hydrogen_bonds(scene, sticks.hydrogen_bonds, threads);
     if (added_or_fail(added) == 0 && !is_of_film) warn("there is no hydrogen bond");

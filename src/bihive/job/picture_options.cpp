@@ -512,30 +512,14 @@ void add_labels(Rows& rows) {
 }
 
 void add_link_options(Rows& rows) {
-  const auto text = [&rows](const char* id, const char* value_name, const char* help, std::string Links::*member) {
-    rows.push_back({.id = id,
-                    .value_name = value_name,
-                    .help = help,
-                    .theme = OptionTheme::spheres,
-                    .in_window = false,
-                    .take = [member](PictureRequest& request, const std::string& given) -> Status {
-                      request.links.*member = given;
-                      return Done{};
-                    }});
-  };
-  text("links", "FILE",
-       "Draw a stick for each row of a CSV file, whose columns first and second are the numbers of two spheres, from 0",
-       &Links::file);
-  text("link_radius", "R|COLUMN[:F]", "Radius of these sticks, or F times a column (a quarter of the smaller sphere's)",
-       &Links::radius);
-  text("link_colour", "COLOUR|COLUMN[:MAP][:MIN,MAX]",
-       "Colour of these sticks, or a column that colours them (their spheres')", &Links::colour);
-  rows.push_back({.id = "link_dashes",
-                  .help = "Draw these sticks as dashes",
+  rows.push_back({.id = "links",
+                  .value_name = "FILE",
+                  .help = "Draw a stick for each row of a CSV file, whose columns first and second are the numbers of "
+                          "two spheres, from 0",
                   .theme = OptionTheme::spheres,
                   .in_window = false,
-                  .take = [](PictureRequest& request, const std::string&) -> Status {
-                    request.links.dashed = true;
+                  .take = [](PictureRequest& request, const std::string& given) -> Status {
+                    request.links = given;
                     return Done{};
                   }});
 }

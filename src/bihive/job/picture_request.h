@@ -19,7 +19,6 @@
 #include "bihive/scene/framing.h"
 #include "bihive/scene/light_text.h"
 #include "bihive/scene/turn.h"
-#include "bihive/settings/links.h"
 #include "bihive/settings/overrides.h"
 
 namespace bihive {
@@ -75,7 +74,7 @@ struct PictureRequest {
   std::int64_t threads = 0;  ///< 0 = as many as the machine runs at once
   StyleOptions style;
   LabelOptions labels;
-  Links links;
+  std::string links;                      ///< a CSV file of them (scene/links.h); empty: none
   std::optional<std::string> background;  ///< a valid colour, whose meaning depends on the transfer, or kNoBackground
   std::optional<std::string> floor;       ///< a valid colour, or kFloorOfShadows (job/floor.h)
   std::optional<std::int64_t> bits;       ///< 8 or 16

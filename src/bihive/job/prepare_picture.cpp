@@ -164,7 +164,8 @@ void draw_cavities(double probe, const PictureRequest& request, bool is_of_film,
 
 std::string without_sticks() {
   return "with " + setting_name("bonds") + " none, without " + setting_name("arrows") + ", " + setting_name("trace") +
-         ", " + setting_name("links") + ", " + setting_name("trail") + " and " + setting_name("hbonds");
+         ", " + setting_name("links") + ", " + setting_name("show_contacts") + ", " + setting_name("trail") + " and " +
+         setting_name("hbonds");
 }
 
 // Refuses what the GPU cannot draw.
@@ -254,9 +255,10 @@ RenderSettings prepare_picture(const PictureRequest& request, RenderEngine engin
   const CameraSelections selections = is_of_film ? CameraSelections() : CameraSelections(request, input.scene.spheres);
   const ChosenSticks sticks = choose_sticks(request, input.scene, whole);
   const double cavity_probe = choose_cavities(request, input.scene, whole);
+  const std::optional<LinkTable> contacts = find_contacts(sticks, input.scene, request.threads);
   scale_balls(sticks, input.scene);
   look(input, request.looks, is_of_film ? request.fixed->ranges_of_looks : std::vector<ColourRange>{}, is_of_film);
-  draw_sticks(sticks, request, frames, input);
+  draw_sticks(sticks, contacts, request, frames, input);
   const bool has_cavities = std::isfinite(cavity_probe);
   if (has_cavities) draw_cavities(cavity_probe, request, is_of_film, input.scene);
   RenderSettings settings = apply_options(request, input, selections, whole);

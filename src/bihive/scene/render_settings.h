@@ -13,6 +13,9 @@ namespace bihive {
 
 class Font;
 
+/// Blocks of 4 x 2 pixels have each set once.
+constexpr int kSharedSets = 8;
+
 /// shaded: Whitted's pictures. recursion: the deepest generation that hit something. traversal: gaps passed (green) and
 /// nodes entered (blue) by the primary ray. normal, distance, id: those of the first hit. tree: a drawing of the tree
 /// itself (render/tree_picture.h). All but `shaded` are display values.
@@ -22,6 +25,10 @@ enum class View { shaded, recursion, traversal, normal, distance, id, tree };
 struct RenderSettings : PictureSettings {
   /// Multiplies the widths of outlines and creases, for a preview in another size; 0: none.
   double line_scale = 1;
+  /// For previews of one sample per pixel: neighbouring pixels take this many sets of directions and of light points in
+  /// turn, and share what these bring on the same sphere. 1, or kSharedSets; 1 where rays pass straight through
+  /// spheres.
+  int light_sets = 1;
   double dots_per_inch = 0;          ///< of the picture in print, for letters and for lines in points; 0: not stated
   std::shared_ptr<const Font> font;  ///< of labels (image/font.h); null: DejaVu Sans
   std::optional<Camera> camera;      ///< in place of the scene's: an eye of a stereo picture

@@ -10,6 +10,7 @@
 #include "bihive/settings/arrows.h"
 #include "bihive/settings/hydrogen_bonds.h"
 #include "bihive/settings/labels.h"
+#include "bihive/settings/links.h"
 #include "bihive/settings/opacity_rule.h"
 #include "bihive/settings/picture_effects.h"
 #include "bihive/settings/stereo.h"
@@ -53,6 +54,7 @@ struct PictureSettings {
   Traces traces;                 ///< for add_traces() (scene/traces.h), last
   Trails trails;                 ///< for add_trails() (scene/trails.h), with the spheres of earlier frames
   HydrogenBonds hydrogen_bonds;  ///< for add_hydrogen_bonds() (scene/hydrogen_bonds.h)
+  Links links;                   ///< for add_links() (scene/links.h)
   /// The radius of the probe for show_cavities() (scene/cavities.h), world units, at least 0; infinite: whole spheres
   /// are drawn.
   double cavity_probe = std::numeric_limits<double>::infinity();

@@ -128,7 +128,7 @@ void transfer(A& archive, PictureSettings& picture) {
 template <class A>
 void transfer(A& archive, RenderSettings& s) {
   transfer(archive, static_cast<PictureSettings&>(s));
-  all(archive, s.line_scale, s.dots_per_inch, s.view, s.crop, s.threads);
+  all(archive, s.line_scale, s.light_sets, s.dots_per_inch, s.view, s.crop, s.threads);
 }
 template <class A>
 void transfer(A& archive, NamedNumbers& column) {

@@ -14,9 +14,15 @@ namespace {
 // A picture of a moving scene may overrun the budget by this factor; otherwise it might never be shown.
 constexpr double kMostBudgets = 4;
 
-// Rays of an intermediate picture: enough for the right brightness, though edges of single shadows show.
-constexpr int kQuickDirections = 8;
-constexpr int kQuickLightPoints = 2;
+// Rays of an intermediate picture. Where pixels share what theirs bring, kSharedSets neighbours have as many directions
+// as a usual picture at rest; else there are enough for about the right brightness, though edges of single shadows
+// show.
+constexpr int kSharedDirections = 4, kQuickDirections = 8;
+constexpr int kSharedLightPoints = 1, kQuickLightPoints = 2;
+
+// Pixels share light on one sphere. With fewer pixels than this for each sphere, most would have nobody to share with,
+// and few directions of their own are darker than many.
+constexpr std::int64_t kPixelsPerSharingSphere = 8;
 
 // Whether the picture has soft light, outlines, fog or a lens, which take more rays.
 bool has_slow_parts(const Scene& scene, const RenderSettings& settings) {
@@ -25,14 +31,14 @@ bool has_slow_parts(const Scene& scene, const RenderSettings& settings) {
                                            has_own_lines(scene) || (has_soft_light(scene) && settings.shadows));
 }
 
-// The same picture with fewer rays. An outline keeps its width on the screen; without those thinner than a pixel.
-void make_quick(RenderSettings& settings, int divisor) {
+// The same picture with fewer rays. An outline keeps its width on the screen: one thinner than a pixel is fainter.
+void make_quick(RenderSettings& settings, int divisor, bool shares_light) {
   if (settings.ambient_occlusion)
-    settings.ambient_occlusion->directions = std::min(settings.ambient_occlusion->directions, kQuickDirections);
-  settings.light_points = std::min(settings.light_points, kQuickLightPoints);
-  const double unit = line_unit_px(settings);
-  const double scale = settings.line_unit == LineUnit::picture ? 1 : 1.0 / divisor;
-  settings.line_scale = settings.outline.value_or(Outline()).width_px * unit * scale < 1 ? 0 : scale;
+    settings.ambient_occlusion->directions =
+        std::min(settings.ambient_occlusion->directions, shares_light ? kSharedDirections : kQuickDirections);
+  settings.light_points = std::min(settings.light_points, shares_light ? kSharedLightPoints : kQuickLightPoints);
+  if (shares_light) settings.light_sets = kSharedSets;
+  settings.line_scale = settings.line_unit == LineUnit::picture ? 1 : 1.0 / divisor;
 }
 
 // For the labels of a picture of any step.
@@ -122,7 +128,10 @@ Status PictureSteps::begin_step(const PictureSubject& subject, PictureStep step)
                                             divided(subject.size.height, step_.divisor), step_.samples);
   slow_parts_ = has_slow_parts(shown.scene, settings);
   quick_ = slow_parts_ && (moving_ || !is_last(step_, subject));
-  if (quick_) make_quick(settings, step_.divisor);
+  const bool shares_light =
+      subject.settings.engine == ViewerEngine::cpu && !lets_light_through(shown.scene) &&
+      pixels_of(step_, subject.size) / kPixelsPerSharingSphere >= shown.scene.spheres.total_size();
+  if (quick_) make_quick(settings, step_.divisor, shares_light);
   if (quick_) shown.scene.camera.aperture = 0;
   if (quick_ || !is_last(step_, subject)) settings.adaptive_samples = false;
   if (subject.settings.engine == ViewerEngine::gpu)

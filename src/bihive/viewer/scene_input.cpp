@@ -7,6 +7,7 @@
 #include "bihive/scene/arrows.h"
 #include "bihive/scene/bonds.h"
 #include "bihive/scene/cavities.h"
+#include "bihive/scene/contact_links.h"
 #include "bihive/scene/element_colours.h"
 #include "bihive/scene/floor.h"
 #include "bihive/scene/hydrogen_bonds.h"
@@ -263,6 +264,12 @@ Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const C
     if (Status status = recolour(scene, look.element_colours); !status) return status.error();
   PictureSettings picture = scene.picture;  // the scene keeps its own
   user.apply_to(picture);
+  std::optional<LinkTable> contacts;  // of the radii as read
+  if (picture.links.shows_contacts()) {
+    Result<LinkTable> found = contact_links(scene, picture.links.contact_probe);
+    if (!found) return look_error("contacts: " + found.error().message, found.error().hint);
+    contacts = std::move(*found);
+  }
   const Sticks sticks = picture.sticks;
   if (sticks.bonds != Bonds::none)
     if (Status status = scale_balls(scene, sticks); !status)
@@ -275,6 +282,8 @@ Result<SceneInput::Looked> SceneInput::looked_at(const ViewerLook& look, const C
     if (const Result<AddedArrows> added = add_arrows(scene, picture.arrows); !added) return added.error();
   if (picture.traces.any())
     if (const Result<AddedTraces> added = add_traces(scene, picture.traces); !added) return added.error();
+  if (contacts)
+    if (const Result<AddedLinks> added = add_links(scene, *contacts, picture.links); !added) return added.error();
   if (picture.hydrogen_bonds.any())
     if (const Result<std::int64_t> added = add_hydrogen_bonds(scene, picture.hydrogen_bonds); !added)
       return added.error();

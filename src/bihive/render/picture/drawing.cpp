@@ -85,6 +85,7 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
                  settings.ambient_occlusion->directions <= kMostAmbientDirections);
   }
   BIHIVE_CHECK(settings.light_points >= 1 && settings.light_points <= kMostLightPoints);
+  BIHIVE_CHECK(settings.light_sets == 1 || settings.light_sets == kSharedSets);
   BIHIVE_CHECK(settings.line_scale >= 0);
   if (settings.outline) {
     BIHIVE_CHECK(settings.outline->width_px >= 1 && settings.outline->width_px <= kWidestOutlinePx);
@@ -128,10 +129,11 @@ Status check_settings(const Scene& scene, const Tracer& tracer, const RenderSett
 
 }  // namespace
 
-Drawing::SampleSet::SampleSet(const Scene& scene, const RenderSettings& settings, int count)
-    : places(camera_samples(count)) {
-  if (settings.shadows && has_soft_light(scene)) light_points.emplace(settings.light_points, count);
-  if (settings.ambient_occlusion) ambient.emplace(*settings.ambient_occlusion, count);
+Drawing::SampleSet::SampleSet(const Scene& scene, const RenderSettings& settings, int count, bool shares_light)
+    : places(camera_samples(count)), light_sets(shares_light && count == 1 ? settings.light_sets : 1) {
+  const int sets = count * light_sets;
+  if (settings.shadows && has_soft_light(scene)) light_points.emplace(settings.light_points, sets);
+  if (settings.ambient_occlusion) ambient.emplace(*settings.ambient_occlusion, sets);
 }
 
 Result<std::unique_ptr<Drawing>> Drawing::begin(const Scene& scene, const Tracer& tracer,
@@ -155,8 +157,8 @@ Drawing::Drawing(const Scene& scene, const Tracer& tracer, const RenderSettings&
       wave_scene_(scene, transparency_.to_eye ? OpacityRule::once : OpacityRule::each_surface),
       post_processing_(scene, wave_scene_, tracer, settings, rays_, &transparency_),
       passes_(settings.view == View::distance || is_adaptive(settings) ? 2 : 1),
-      first_set_(scene, settings, first_samples(settings)) {
-  if (is_adaptive(settings)) second_set_.emplace(scene, settings, kManySamples);
+      first_set_(scene, settings, first_samples(settings), transparency_.to_eye == nullptr) {
+  if (is_adaptive(settings)) second_set_.emplace(scene, settings, kManySamples, false);
 }
 
 Status Drawing::start(const Tile& part, Film film) {
@@ -176,22 +178,28 @@ Status Drawing::start(const Tile& part, Film film) {
 
 void Drawing::run(std::size_t first, std::size_t end) {
   if (settings_.view == View::tree) return draw_tree();
-  const std::size_t pass = first / tiles_.size();
-  const std::size_t offset = first - pass * tiles_.size();
-  // The distance view first needs the range of distances, and adaptive samples need a first picture.
-  const bool finds_range = settings_.view == View::distance && pass == 0;
-  if (pass == 1 && offset == 0) begin_second_pass();
-  parallel_for(settings_.threads, static_cast<std::int64_t>(end - first), [&](std::int64_t i) {
-    if (cancelled()) return;
-    const std::size_t tile = offset + static_cast<std::size_t>(i);
-    if (finds_range)
-      find_distance_range(tile);
-    else if (pass == 1 && second_set_)
-      refine_tile(tiles_[tile], counts_[tile]);
-    else
-      draw_pixels(tiles_[tile], pixels_of(tiles_[tile]), pixels_in(tiles_[tile]), first_set_, counts_[tile]);
-    report_progress();
-  });
+  begin_pass(first);
+  parallel_for(settings_.threads, static_cast<std::int64_t>(end - first),
+               [&](std::int64_t i) { run_tile(first + static_cast<std::size_t>(i)); });
+}
+
+// The distance view first needs the range of distances, and adaptive samples need a first picture.
+void Drawing::begin_pass(std::size_t first) {
+  if (first == tiles_.size() && settings_.view != View::tree) begin_second_pass();
+}
+
+void Drawing::run_tile(std::size_t tile) {
+  if (settings_.view == View::tree) return draw_tree();
+  if (cancelled()) return;
+  const std::size_t pass = tile / tiles_.size();
+  const std::size_t place = tile - pass * tiles_.size();
+  if (settings_.view == View::distance && pass == 0)
+    find_distance_range(place);
+  else if (pass == 1 && second_set_)
+    refine_tile(tiles_[place], counts_[place]);
+  else
+    draw_pixels(tiles_[place], pixels_of(tiles_[place]), pixels_in(tiles_[place]), first_set_, counts_[place]);
+  report_progress();
 }
 
 void Drawing::run_all() {
@@ -325,12 +333,12 @@ void Drawing::draw_pixels(const Tile& tile, const std::vector<PixelPlace>& pixel
                           const SampleSet& set, RenderCounts& counts) {
   const bool shaded = settings_.view == View::shaded;
   const bool toned = shaded && settings_.tone.any();
-  WaveIntegrator integrator(
-      wave_scene_, tracer_,
-      {settings_.recursion, shaded, shaded && settings_.shadows,
-       settings_.view == View::recursion || settings_.transparent || toned, set.ambient ? &*set.ambient : nullptr,
-       set.light_points ? &*set.light_points : nullptr, set.count(), &transparency_, settings_.transparent},
-      cancel_);
+  WaveIntegrator integrator(wave_scene_, tracer_,
+                            {settings_.recursion, shaded, shaded && settings_.shadows,
+                             settings_.view == View::recursion || settings_.transparent || toned,
+                             set.ambient ? &*set.ambient : nullptr, set.light_points ? &*set.light_points : nullptr,
+                             set.count() * set.light_sets, &transparency_, settings_.transparent, set.light_sets > 1},
+                            cancel_);
   static thread_local EffectBuffers effects;
   if (post_processing_.any()) post_processing_.find(tile, set.places, cancel_, effects);
   const std::int64_t samples = set.count();
@@ -339,7 +347,7 @@ void Drawing::draw_pixels(const Tile& tile, const std::vector<PixelPlace>& pixel
   for_each_wave(pixels, pixel_count, set, [&](WaveBuffers& buffers, std::int64_t first) {
     const std::int64_t count = WaveIntegrator::primaries(buffers).count;
     if (shaded || settings_.view == View::recursion)
-      integrator.trace(buffers, count, first % samples);
+      integrator.trace(buffers, count, first % samples, pixels.data() + first / samples);
     else if (settings_.view != View::traversal)
       integrator.find_first_hits(buffers);
     if (cancelled()) return;

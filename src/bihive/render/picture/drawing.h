@@ -31,6 +31,10 @@ class Drawing {
 
   /// The tiles of all passes have consecutive numbers. Draws those from `first` to before `end`, all of one pass.
   void run(std::size_t first, std::size_t end);
+  /// The same for callers with threads of their own: before the tile `first` of a pass and those after it, and then
+  /// each, by any thread.
+  void begin_pass(std::size_t first);
+  void run_tile(std::size_t tile);
   std::size_t tiles_in_a_pass() const { return tiles_.size(); }
   std::size_t tiles_in_all() const { return passes_ * tiles_.size(); }
 
@@ -42,12 +46,13 @@ class Drawing {
  private:
   // The samples of a pixel, and the directions and points that they take.
   struct SampleSet {
-    SampleSet(const Scene& scene, const RenderSettings& settings, int count);
+    SampleSet(const Scene& scene, const RenderSettings& settings, int count, bool shares_light);
     std::int64_t count() const { return static_cast<std::int64_t>(places.size()); }
 
     std::vector<CameraSample> places;
     std::optional<AmbientRays> ambient;
     std::optional<LightPointSets> light_points;
+    int light_sets;  // that pixels share (RenderSettings)
   };
   struct PixelSum;
 

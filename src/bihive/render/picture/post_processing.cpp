@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bihive/geometry/each_sphere.h"
+#include "bihive/base/parallel.h"
 #include "bihive/geometry/hit.h"
 #include "bihive/scene/clips.h"
 
@@ -12,6 +12,8 @@ namespace bihive {
 namespace {
 
 constexpr double kBackgroundDepth = std::numeric_limits<double>::infinity();
+
+constexpr std::int64_t kSpheresAtOnce = 1 << 14;
 
 // The radius of a sphere, in widths of its line at most as wide.
 constexpr double kRadiusInLines = 6;
@@ -49,21 +51,51 @@ PostProcessing::PostProcessing(const Scene& scene, const WaveScene& wave_scene, 
   fog_ = settings.fog;
   if (has_own_lines(scene) && !outline_) outline_.emplace();
   if (outline_) {
+    const SphereAttributes& attributes = scene.spheres.attributes();
+    const bool are_alike = attributes.outline_px.empty();
     double widest = 0;
-    for (std::int64_t id = 0; id < scene.spheres.size(); ++id) widest = std::max(widest, line_of(id).width_px);
+    for (std::int64_t id = 0; id < (are_alike ? std::min<std::int64_t>(1, scene.spheres.size()) : scene.spheres.size());
+         ++id)
+      widest = std::max(widest, line_of(id).width_px);
     border_ = widest > 0 ? static_cast<int>(std::max(widest, 1.0)) : 0;
     if (border_ == 0) outline_.reset();
   }
   if (fog_) {
-    nearest_ = kBackgroundDepth;
-    const RemainingSpheres remaining(scene);
-    const Vec3d eye = to_double(rays.eye());
-    for_each_sphere(remaining.set(), [&](std::int64_t, Vec3d centre, double radius) {
-      const double depth = dot(scene.spheres.to_local(centre) - eye, rays.forward());
-      nearest_ = std::min(nearest_, depth - radius);
-      farthest_ = std::max(farthest_, depth + radius);
-    });
+    find_depths_of_set(settings.threads);
     nearest_ = std::min(std::max(nearest_, 0.0), farthest_);
+  }
+}
+
+void PostProcessing::find_depths_of_set(int threads) {
+  nearest_ = kBackgroundDepth;
+  const RemainingSpheres remaining(scene_);
+  const SphereSet& spheres = remaining.set();
+  const Vec3d eye = to_double(rays_.eye()), forward = rays_.forward();
+  const double unit = spheres.inverse_scale();
+  struct Depths {
+    double nearest = kBackgroundDepth, farthest = 0;
+  };
+  std::vector<Depths> parts(static_cast<std::size_t>((spheres.size() + kSpheresAtOnce - 1) / kSpheresAtOnce));
+  parallel_for(threads, static_cast<std::int64_t>(parts.size()), [&](std::int64_t part) {
+    Depths all;
+    const std::int64_t end = std::min(spheres.size(), (part + 1) * kSpheresAtOnce);
+    for (std::int64_t copy = 0; copy < spheres.images().count(); ++copy) {
+      const Vec3d shift = copy == 0 ? Vec3d{} : spheres.scale() * spheres.images().shift(copy);
+      for (std::int64_t id = part * kSpheresAtOnce; id < end; ++id) {
+        Vec3d stored = spheres.stored_centre(id);
+        if (copy > 0) stored = to_double(to_float(stored + shift));
+        const Vec3d centre = spheres.in_world(stored * unit);
+        const double radius = spheres.stored_radius(id) * unit;
+        const double depth = dot(scene_.spheres.to_local(centre) - eye, forward);
+        all.nearest = std::min(all.nearest, depth - radius);
+        all.farthest = std::max(all.farthest, depth + radius);
+      }
+    }
+    parts[static_cast<std::size_t>(part)] = all;
+  });
+  for (const Depths& part : parts) {
+    nearest_ = std::min(nearest_, part.nearest);
+    farthest_ = std::max(farthest_, part.farthest);
   }
 }
 

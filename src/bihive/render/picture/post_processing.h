@@ -57,6 +57,7 @@ class PostProcessing {
                 double passing = 1) const;
 
  private:
+  void find_depths_of_set(int threads);
   void find_depths(const Tile& grown, const CameraSample& sample, const CancelToken* cancel,
                    EffectBuffers& buffers) const;
   void find_runs(std::int64_t row, EffectBuffers& buffers) const;

@@ -1,6 +1,7 @@
 #include "bihive/render/renderer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -124,21 +125,30 @@ Result<RenderedBands> render_in_bands(const Scene& scene, const Tracer& tracer, 
 
 class SlicedPicture::Implementation {
  public:
-  Implementation(std::unique_ptr<Drawing> drawing, int threads) : drawing_(std::move(drawing)) {
-    slice_ = least_slice_ = static_cast<std::size_t>(threads == 0 ? hardware_threads() : threads);
-  }
+  Implementation(std::unique_ptr<Drawing> drawing, int threads)
+      : drawing_(std::move(drawing)), threads_(threads == 0 ? hardware_threads() : threads) {}
 
   void advance(double budget_ms) {
     const Timer timer;
     while (!finished()) {
-      // Draw some tiles of one pass; more at a time if they take very little time.
-      const Timer of_slice;
+      // Each thread takes tile after tile of one pass until the time is over, and none waits for another's tile.
       const std::size_t pass_end = (done_ / drawing_->tiles_in_a_pass() + 1) * drawing_->tiles_in_a_pass();
-      const std::size_t end = std::min(done_ + slice_, pass_end);
-      drawing_->run(done_, end);
-      done_ = end;
-      if (of_slice.elapsed_ms() < budget_ms / 16) slice_ *= 2;
-      if (of_slice.elapsed_ms() > budget_ms / 4) slice_ = std::max(slice_ / 2, least_slice_);
+      drawing_->begin_pass(done_);
+      std::atomic<std::size_t> next = done_;
+      const auto draw_tiles = [&](std::int64_t) {
+        do {
+          const std::size_t tile = next.fetch_add(1);
+          if (tile >= pass_end) return;
+          drawing_->run_tile(tile);
+        } while (timer.elapsed_ms() < budget_ms);
+      };
+      // A tile alone may have threads of its own.
+      const std::int64_t at_once = std::min<std::int64_t>(threads_, static_cast<std::int64_t>(pass_end - done_));
+      if (at_once == 1)
+        draw_tiles(0);
+      else
+        parallel_for(threads_, at_once, draw_tiles);
+      done_ = std::min(next.load(), pass_end);
       if (timer.elapsed_ms() >= budget_ms) break;
     }
     spent_ms_ += timer.elapsed_ms();
@@ -156,8 +166,8 @@ class SlicedPicture::Implementation {
 
  private:
   std::unique_ptr<Drawing> drawing_;
-  std::size_t done_ = 0;             // tiles
-  std::size_t slice_, least_slice_;  // tiles at a time
+  int threads_;
+  std::size_t done_ = 0;  // tiles
   double spent_ms_ = 0;
 };
 

@@ -282,6 +282,20 @@ void find_light_rays(Vec3d point, PlaceWave& wave);
 /// Adds the rays that are not hidden to their places, each times its share.
 void add_visible(PlaceWave& wave);
 
+/// Previews: the surfaces whose light each surface shares, itself too: those of the same sphere in pixels around it.
+struct Neighbours {
+  std::vector<std::int64_t> first;    ///< of each surface, in the other columns; and their length
+  std::vector<std::int32_t> surface;  ///< numbers in WaveSurfaces
+  std::vector<float> weight;
+};
+
+/// Of surfaces of primary rays, one at most for each owner. `pixel`: of each owner, in the order of order_pixels(), in
+/// which owners take kSharedSets sets in turn.
+void find_neighbours(const WaveSurfaces& surfaces, const PixelPlace* pixel, Neighbours& neighbours);
+
+/// The value of each surface becomes the mean of its neighbours' values by weight times `importance`; null: 1.
+void share(const Neighbours& neighbours, const double* importance, double* values);
+
 /// What the shadow rays of surfaces brought. Rows of one entry for each surface.
 struct LightReceived {
   std::int64_t surfaces = 0;             ///< entries of a row

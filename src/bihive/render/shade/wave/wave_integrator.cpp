@@ -37,7 +37,9 @@ std::int64_t end_of_part(const Wave& wave, std::int64_t first, std::int64_t last
 
 }  // namespace
 
-void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners, std::int64_t first_sample) {
+void WaveIntegrator::trace(WaveBuffers& buffers, std::int64_t owners, std::int64_t first_sample,
+                           const PixelPlace* pixel) {
+  pixel_ = pixel;
   first_sample_ = first_sample;
   buffers.generations.resize(std::max<std::size_t>(buffers.generations.size(), std::size_t(settings_.recursion)));
   buffers.sums.reset(owners);
@@ -240,6 +242,7 @@ void WaveIntegrator::follow(const WavePart& rays, int depth, WaveBuffers& buffer
     if (with_shadows()) find_soft_shadows(depth, buffers);
     if (with_ambient()) find_visibility(depth, buffers);
     if (cancelled()) return;
+    if (shares(depth)) share_light(buffers);
     steps::LightReceived received;
     received.surfaces = buffers.surfaces.count;
     if (covers_by_shadows() && depth == 1) received.coverage = coverage_.data();
@@ -360,6 +363,7 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
     buffers.light_facing[channel].reserve(all);
     buffers.light_seen[channel].reserve(all);
   }
+  if (shares(depth)) buffers.light_in_front.reserve(all);
   PlaceWave& wave = buffers.places;
   group_places(points.count(), buffers);
   for (int n = 0; n < points.count() * levels(); ++n) {
@@ -376,6 +380,7 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
       };
       trace_places_of_all(of_set.size(), depth, 1, buffers, towards, [&](const RaySpan& rays) {
         rays_.shadow += rays.count;
+        for (std::int64_t i = 0; shares(depth) && i < rays.count; ++i) wave.in_front[wave.place[i]] += wave.facing[i];
         steps::add_visible(wave);
       });
       if (cancelled()) return;
@@ -385,6 +390,8 @@ void WaveIntegrator::find_soft_shadows(int depth, WaveBuffers& buffers) {
           buffers.light_facing[channel][row + wave.surface[k]] = wave.seen[channel][k] / count;
           buffers.light_seen[channel][row + wave.surface[k]] = wave.rays_seen[channel][k] / count;
         }
+      for (std::int64_t k = 0; shares(depth) && k < wave.places; ++k)
+        buffers.light_in_front[row + wave.surface[k]] = wave.in_front[k] / count;
     }
   }
 }
@@ -395,6 +402,7 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
   const AmbientRays& ambient = *settings_.ambient;
   PlaceWave& wave = buffers.places;
   for (int channel = 0; channel < channels(); ++channel) buffers.visibility[channel].reserve(surfaces.count);
+  if (shares(depth)) buffers.in_front.reserve(surfaces.count);
   group_places(ambient.sets.count(), buffers);
   for (int n = 0; n < ambient.sets.count() * levels(); ++n) {
     const int set = n % ambient.sets.count();
@@ -415,6 +423,31 @@ void WaveIntegrator::find_visibility(int depth, WaveBuffers& buffers) {
       for (std::int64_t k = 0; k < wave.places; ++k)
         buffers.visibility[channel][wave.surface[k]] =
             wave.in_front[k] > 0 ? wave.seen[channel][k] / wave.in_front[k] : 1;
+    for (std::int64_t k = 0; shares(depth) && k < wave.places; ++k)
+      buffers.in_front[wave.surface[k]] = wave.in_front[k];
+  }
+}
+
+// Each surface knows what few rays brought; together neighbours have as many directions and points as there are in all
+// sets. A light's facing is that of the surface itself, and the share of it that arrives is the neighbours'.
+void WaveIntegrator::share_light(WaveBuffers& buffers) const {
+  const std::int64_t surfaces = buffers.surfaces.count;
+  steps::find_neighbours(buffers.surfaces, pixel_, buffers.neighbours);
+  for (int channel = 0; with_ambient() && channel < channels(); ++channel)
+    steps::share(buffers.neighbours, buffers.in_front.data(), buffers.visibility[channel].data());
+  if (!with_shadows() || settings_.light_points == nullptr) return;
+  std::int64_t row = 0;
+  for (const PointLight& light : scene_.lights) {
+    if (!is_soft(light)) continue;
+    const double* const in_front = buffers.light_in_front.data() + row;
+    for (int channel = 0; channel < channels(); ++channel) {
+      double* const facing = buffers.light_facing[channel].data() + row;
+      for (std::int64_t i = 0; i < surfaces; ++i) facing[i] = in_front[i] > 0 ? facing[i] / in_front[i] : 0;
+      steps::share(buffers.neighbours, in_front, facing);
+      for (std::int64_t i = 0; i < surfaces; ++i) facing[i] = facing[i] * in_front[i];
+      steps::share(buffers.neighbours, nullptr, buffers.light_seen[channel].data() + row);
+    }
+    row += surfaces;
   }
 }
 

@@ -56,6 +56,9 @@ struct WaveBuffers {
   Column<double> limits;
   Columns3<double> visibility;
   Columns3<double> light_facing, light_seen;  ///< of LightReceived
+  /// Of light that is shared: PlaceWave::in_front of each surface, and of each light with a radius.
+  Column<double> in_front, light_in_front;
+  steps::Neighbours neighbours;
   WaveSums sums;
   Column<double> x, y, lens_x, lens_y;  ///< of primary rays
 
@@ -82,13 +85,17 @@ class WaveIntegrator {
     const Transparency* transparency = nullptr;
     /// The background straight behind what primary rays cross is left out of the sums (coverage()).
     bool without_background = false;
+    /// Each owner is a pixel, and neighbours share what the sets of directions and light points bring (steps::share()).
+    bool shares_light = false;
   };
   WaveIntegrator(const WaveScene& scene, const Tracer& tracer, const Settings& settings, const CancelToken* cancel)
       : scene_(scene), tracer_(tracer), settings_(settings), cancel_(cancel) {}
 
   /// Follows the rays of primaries() to their end. Owners are 0 to owners - 1; owner 0 is sample `first_sample` of its
-  /// pixel, the others follow. After a cancel the result is undefined.
-  void trace(WaveBuffers& buffers, std::int64_t owners, std::int64_t first_sample = 0);
+  /// pixel, the others follow. `pixel`: of each owner, only for light that is shared. After a cancel the result is
+  /// undefined.
+  void trace(WaveBuffers& buffers, std::int64_t owners, std::int64_t first_sample = 0,
+             const PixelPlace* pixel = nullptr);
 
   /// Only the first hits of primaries(), on opaque spheres and the plane: t and id of ray i in buffers.t[i] and
   /// buffers.id[i].
@@ -132,6 +139,8 @@ class WaveIntegrator {
   void find_shadows(int depth, WaveBuffers& buffers);
   void find_soft_shadows(int depth, WaveBuffers& buffers);
   void find_visibility(int depth, WaveBuffers& buffers);
+  bool shares(int depth) const { return settings_.shares_light && depth == 1; }
+  void share_light(WaveBuffers& buffers) const;
   template <class MakeRays, class Use>
   void trace_places_of_all(std::size_t count, int depth, double limit, WaveBuffers& buffers, const MakeRays& make,
                            const Use& use) const;
@@ -161,6 +170,7 @@ class WaveIntegrator {
   const CancelToken* cancel_;
   RenderCounts rays_;
   std::int64_t first_sample_ = 0;
+  const PixelPlace* pixel_ = nullptr;
   std::vector<std::uint8_t> deepest_hit_;
   std::vector<double> passing_, coverage_;  // empty: 1 of all
   static constexpr double kUncovered = -1;  // of an owner whose rays have hit nothing so far
