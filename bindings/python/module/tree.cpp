@@ -405,12 +405,14 @@ std::shared_ptr<RayTree> build_tree(const SharedSpheres& spheres, const std::opt
     }
     return tree->spheres->file.spheres;
   };
-  build_tree_of(*tree, request_of(words), spheres->file.spheres.size(), progress, set, [&](Engine engine, const TreeParameters& limits) {
-    const SphereSet& of_tree = tree->spheres->file.spheres;
-    value_of(check_tree_memory(of_tree, engine, limits));
-    tree->tracer = value_of(Tracer::build(of_tree, engine, limits, tree->threads));
-    if (periodic && !of_tree.has_images()) tree->images = value_of(PeriodicImages::of(of_tree, tree->threads));
-  });
+  build_tree_of(*tree, request_of(words), spheres->file.spheres.size(), progress, set,
+                [&](Engine engine, const TreeParameters& limits) {
+                  const SphereSet& of_tree = tree->spheres->file.spheres;
+                  value_of(check_tree_memory(of_tree, engine, limits));
+                  tree->tracer = value_of(Tracer::build(of_tree, engine, limits, tree->threads));
+                  if (periodic && !of_tree.has_images())
+                    tree->images = value_of(PeriodicImages::of(of_tree, tree->threads));
+                });
   return tree;
 }
 

@@ -63,7 +63,7 @@ using NearestSphere = NearestAnswer</*kAnyHit=*/false>;
 ///     passes every sphere that a valid ray may hit up to answer.limit() to test(), and ends where that returns true;
 ///   void search(Vec3d point, NearestSphere& nearest, Counter& counter) const
 ///     the same for spheres up to nearest.limit() from a point in stored units.
-/// and may say with `kTestedTogether` that so many spheres of a node count as one step.
+/// and may say with `kTestedTogether` how many spheres of a node count as one step.
 template <class Self>
 class ByRay : public Structure {
  public:
