@@ -10,7 +10,7 @@
 namespace bihive {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 180;
+constexpr int kWidthPx = 320, kHeightPx = 180;
 constexpr double kAnyBudgetMs = 1e6;  // every picture has the whole size
 constexpr int kBlockOfEyePx = 12;     // what eyes take for one brightness
 
@@ -65,7 +65,7 @@ Jump jump_at_the_end(Viewer& viewer) {
 
 TEST(ViewerLight, is_steady_where_a_move_ends) {
   Viewer viewer;
-  viewer.resize(kWidth, kHeight);
+  viewer.resize(kWidthPx, kHeightPx);
   ASSERT_TRUE(viewer.load_built_in("demo"));
   const Jump jump = jump_at_the_end(viewer);
   RecordProperty("mean", std::to_string(jump.mean));
