@@ -16,12 +16,12 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-std::string number(double value) {
+std::string number_text(double value) {
   return fmt::format("{}", value);
 }
 
 std::string vector(Vec3d v) {
-  return number(v.x) + "," + number(v.y) + "," + number(v.z);
+  return number_text(v.x) + "," + number_text(v.y) + "," + number_text(v.z);
 }
 
 // "--id=value": a value may begin with a hyphen.
@@ -48,7 +48,7 @@ struct TextOfValue {
     return parameter.kind == ParameterKind::choice ? names_of(parameter)[static_cast<std::size_t>(value)]
                                                    : std::to_string(value);
   }
-  std::string operator()(double value) const { return number(value); }
+  std::string operator()(double value) const { return number_text(value); }
   std::string operator()(const std::string& value) const { return value; }
   std::string operator()(Vec3d value) const { return vector(value); }
 };
@@ -63,7 +63,7 @@ void add_parameters(Words& words, const ViewerSettings& settings) {
     } else if (parameter->id == "samples_auto") {
       if (std::get<bool>(*value)) add(words, "samples", "auto");
     } else if (parameter->id == "outline_px") {
-      add(words, "outline", number(std::get<double>(*value)));
+      add(words, "outline", number_text(std::get<double>(*value)));
     } else if (const bool* const flag = std::get_if<bool>(value); flag != nullptr) {
       if (*flag) words.push_back(option_of(*parameter));
       if (!*flag && parameter->has_no_option) words.push_back(option_of_setting("no_" + std::string(parameter->id)));
@@ -86,19 +86,19 @@ void add_camera(Words& words, const ShownState& state) {
     add(words, "eye", vector(camera.eye));
     add(words, "look_at", vector(camera.look_at));
     add(words, "up", vector(camera.up));
-    add(words, "fov", number(angle_of(camera)));
+    add(words, "fov", number_text(angle_of(camera)));
   } else {
     if (state.side) add(words, "view_from", *state.side);
     const bool is_usual = camera.projection == Projection::orthographic || camera.fov_deg == Camera().fov_deg;
-    if (!is_usual) add(words, "fov", number(camera.fov_deg));
+    if (!is_usual) add(words, "fov", number_text(camera.fov_deg));
   }
   if (camera.projection == Projection::orthographic || !state.own_camera)
     add(words, "projection", name_of(kProjections, camera.projection));
-  if (camera.aperture > 0) add(words, "aperture", number(camera.aperture));
+  if (camera.aperture > 0) add(words, "aperture", number_text(camera.aperture));
   if (camera.aperture > 0 && !state.settings.focus_on.empty())
     add(words, "focus", state.settings.focus_on);
   else if (camera.aperture > 0 && camera.focus > 0)
-    add(words, "focus", number(camera.focus));
+    add(words, "focus", number_text(camera.focus));
 }
 
 void add_look(Words& words, const ViewerLook& look) {
