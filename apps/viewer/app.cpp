@@ -23,7 +23,7 @@ namespace {
 constexpr double kBudgetMs = 16;
 constexpr double kIdleSeconds = 0.5;
 constexpr double kShortestWait = 1e-4;
-constexpr double kRestMs = 120;  // of the pointer before its sphere is named
+constexpr double kRestMs = 120;  // the pointer rests this long before its sphere is named
 
 double now_ms() {
   return 1000 * glfwGetTime();

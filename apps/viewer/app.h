@@ -103,9 +103,10 @@ class App {
 
   Viewer& viewer_;
   Request request_;
-  std::string input_;                // shown: a built-in name or a file
-  bool framed_ = true;               // the camera was not moved since it showed the whole scene, or was the scene's own
-  std::optional<std::string> side_;  // from which it shows the whole scene; none: the scene's own camera, or the front
+  std::string input_;   // shown: a built-in name or a file
+  bool framed_ = true;  // the camera was not moved since it showed the whole scene, or was the scene's own
+  std::optional<std::string>
+      side_;  // the camera shows the whole scene from this side; none: the scene's own camera, or the front
   std::unique_ptr<Window> window_;
   std::unique_ptr<PictureTexture> texture_;
   Cards cards_;
@@ -122,11 +123,11 @@ class App {
   std::optional<std::string> file_to_open_;
   bool dropped_several_ = false;
   bool path_is_new_ = false;  // the letter of the key that opened the card comes after that key
-  int frames_to_draw_ = 3;    // of the window, at least
+  int frames_to_draw_ = 3;    // frames of the window still to draw, at least
 
   struct Save {
     std::string path;
-    std::vector<std::pair<std::string, std::string>> text;  // of the PNG file
+    std::vector<std::pair<std::string, std::string>> text;  // text chunks of the PNG file
     double done = 0;
   };
   std::optional<Save> save_;  // being drawn
@@ -135,8 +136,8 @@ class App {
 
   enum class Drag { none, orbit, pan };
   Drag drag_ = Drag::none;
-  double x_ = 0, y_ = 0;            // of the pointer
-  double down_x_ = 0, down_y_ = 0;  // where a button went down
+  double x_ = 0, y_ = 0;            // position of the pointer
+  double down_x_ = 0, down_y_ = 0;  // position at which a button went down
   bool may_be_click_ = false;       // it has not moved since
   double last_click_ms_ = -1e9;
   std::optional<double> rests_since_ms_;  // the pointer, over the picture, without a name yet

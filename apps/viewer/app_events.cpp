@@ -16,7 +16,7 @@ constexpr double kZoomOfNotch = 1.15;
 constexpr double kTurnOfKeyPx = 24;  // the turn or shift of an arrow key
 constexpr double kMostClick = 4;     // the pointer's way during a click, in its units
 constexpr double kDoubleClickMs = 350;
-constexpr double kCloser = 0.5;  // of the distance that is left after a double click
+constexpr double kCloser = 0.5;  // a double click leaves this share of the distance
 
 App& app_of(GLFWwindow* window) {
   return *static_cast<App*>(glfwGetWindowUserPointer(window));

@@ -1,4 +1,4 @@
-// What lies over the picture for a while: messages, long work, the help, the name under the pointer.
+// Overlays that come and go: messages, progress of long work, the help, the name of the sphere under the pointer.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// What the cards hold, but for those with files of their own.
+// Contents of the cards, except for those that have files of their own.
 
 #include <fmt/format.h>
 

@@ -15,13 +15,13 @@
 namespace bihive::window {
 namespace {
 
-constexpr float kButtons = 58;  // of the bar
+constexpr float kButtons = 58;  // height of the bar of buttons
 constexpr float kCardWidth = 348;
 constexpr float kNarrow = 520, kNarrowUpright = 760;  // as the page has them (web/src/cards.css)
 constexpr float kBarOfNarrow = 48;
 constexpr float kLeastSheet = 200, kMostSheet = 430, kShareOfSheet = 0.44F;
 constexpr double kZoomOfButton = 1.25;
-const ImVec4 kGround{kPanel.x, kPanel.y, kPanel.z, 0.8F};  // of the axes
+const ImVec4 kGround{kPanel.x, kPanel.y, kPanel.z, 0.8F};  // background of the axes
 
 bool is_stay(const std::string& card) {
   return card == "measure" || card == "show" || card == "cut";  // beside which the picture is clicked

@@ -20,7 +20,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kProgram = "bihive-view";
-constexpr const char* kFirstInput = "demo";  // where nobody names one
+constexpr const char* kFirstInput = "demo";  // shown if no input is given
 // The JSON object of apps/viewer/request.h.
 ordered_json request_of(const ViewOptions& options, bool names_none) {
   ordered_json request = ordered_json::object();

@@ -20,11 +20,11 @@ namespace bihive {
 
 /// A decorator: adds sticks to an engine of the spheres. They have a tree of their own, up to where the ray meets a
 /// sphere; for the copies of a replicated set, one after the other. The scalar traversal takes rays to them, or, beside
-/// the engines of vectors, that of stick_tree.h.
+/// the engines of vectors, those of stick_tree.h and, for neighbouring rays, stick_block.h.
 class StickEngine final : public RayEngine {
  public:
   /// Of all sticks. Spheres and sticks must outlive it. `cuts`: what clips leave of them; null: all. std::bad_alloc:
-  /// there is not enough memory. Within a WatchedWork it may throw Cancelled.
+  /// there is not enough memory. Within a WatchedWork, without vectors, it may throw Cancelled.
   StickEngine(const SphereSet& spheres, const StickSet& sticks, std::shared_ptr<const RayEngine> of_spheres,
               std::shared_ptr<const CutSet> cuts, bool by_vectors)
       : StickEngine(spheres, sticks, all_of(sticks), std::move(of_spheres), std::move(cuts), by_vectors) {}

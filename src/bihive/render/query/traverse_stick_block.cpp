@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "bihive/render/query/lanes-inl.h"
 #include "bihive/render/query/stick_block.h"
 #include "bihive/render/query/stick_roots-inl.h"
+#include "bihive/render/query/waiting_children.h"
 #include "bihive/simd/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -222,17 +222,7 @@ bool traverse_block_on_target(const StickTree& tree, StickBlock& block, double m
   // As for one ray (bih/traversal.h), with room for the rounding of slopes.
   const double pad = 0x1p-24 + 0x1p-44 * farthest + more_pad;
 
-  // Each level leaves at most fifteen children waiting. Deep trees are rare.
-  constexpr int kFewLevels = 48;
-  struct Waiting {
-    double w;
-    std::int32_t child;
-  };
-  Waiting of_few[kFewLevels * kStickWidth];  // NOLINT: written before read
-  std::vector<Waiting> of_many;
-  if (tree.levels() > kFewLevels) of_many.resize(static_cast<std::size_t>(tree.levels()) * kStickWidth);
-  Waiting* const waiting = of_many.empty() ? of_few : of_many.data();
-  int count = 0;
+  WaitingChildren<double> waiting(tree.levels());
   std::int32_t at = 0;
   StickBlockRoots roots;
   for (;;) {
@@ -266,20 +256,13 @@ bool traverse_block_on_target(const StickTree& tree, StickBlock& block, double m
       entered |= static_cast<std::uint32_t>(bits[0]) << lane;
     }
 
-    // They wait, the nearest on top.
-    const int first = count;
-    for (; entered != 0; entered &= entered - 1) {
-      const int slot = __builtin_ctz(entered);
-      int place = count++;
-      for (; place > first && waiting[place - 1].w < w_in[slot]; --place) waiting[place] = waiting[place - 1];
-      waiting[place] = {w_in[slot], node.child[slot]};
-    }
+    waiting.push(node, entered, w_in);
 
     // Take the next one that may matter; at the end itself it may hold a smaller id.
     for (;;) {
-      if (count == 0) return true;
-      const Waiting next = waiting[--count];
-      if (next.w > funnel.w_end) continue;
+      if (waiting.empty()) return true;
+      const auto next = waiting.pop();
+      if (next.entry > funnel.w_end) continue;
       at = next.child;
       if (at >= 0) break;
       const std::int64_t index = ~at;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "bihive/render/query/stick_tree.h"
+#include "bihive/render/query/waiting_children.h"
 #include "bihive/simd/dispatch.h"
 #include "bihive/simd/lanes-inl.h"
 
@@ -76,17 +76,7 @@ void traverse_on_target(const StickTree& tree, const ScaledRay& ray, double more
   double limit = std::min(ray.t_max, tests.limit);
   float end = local.s(limit);
 
-  // Each level leaves at most fifteen children waiting. Deep trees are rare.
-  constexpr int kFewLevels = 48;
-  struct Waiting {
-    float s;
-    std::int32_t child;
-  };
-  Waiting of_few[kFewLevels * kStickWidth];  // NOLINT: written before read
-  std::vector<Waiting> of_many;
-  if (tree.levels() > kFewLevels) of_many.resize(static_cast<std::size_t>(tree.levels()) * kStickWidth);
-  Waiting* const waiting = of_many.empty() ? of_few : of_many.data();
-  int count = 0;
+  WaitingChildren<float> waiting(tree.levels());
   std::int32_t at = 0;
   for (;;) {
     // Enter the node: which of the sixteen boxes does the ray enter, and where?
@@ -109,20 +99,13 @@ void traverse_on_target(const StickTree& tree, const ScaledRay& ray, double more
       entered |= mask_bits(hn::Le(in, hn::Mul(out, in_all(1 + 0x1p-20F)))) << lane;
     }
 
-    // They wait, the nearest on top.
-    const int first = count;
-    for (; entered != 0; entered &= entered - 1) {
-      const int slot = __builtin_ctz(entered);
-      int place = count++;
-      for (; place > first && waiting[place - 1].s < s_in[slot]; --place) waiting[place] = waiting[place - 1];
-      waiting[place] = {s_in[slot], node.child[slot]};
-    }
+    waiting.push(node, entered, s_in);
 
     // Take the next one that may matter; at the limit itself it may hold a smaller id.
     for (;;) {
-      if (count == 0) return;
-      const Waiting next = waiting[--count];
-      if (next.s > end) continue;
+      if (waiting.empty()) return;
+      const auto next = waiting.pop();
+      if (next.entry > end) continue;
       at = next.child;
       if (at >= 0) break;
       if (tests.test(std::int64_t{~at})) return;
