@@ -70,6 +70,8 @@ Status App::open() {
   framed_ = !request_.places_camera;
   if (request_.side) side_ = name_of(kSides, *request_.side);
   take_frames(std::move(first_frames_), request_.reading.options().frame);
+  history_.begin(state());
+  keep_recent();
   welcomes_ = request_.welcomes;
   if (!request_.card.empty()) open_card(request_.card);
   return Done{};
@@ -84,6 +86,8 @@ void App::open_file(const std::string& path) {
   cards_.reading = {};
   opened(file->facts);
   take_frames(std::move(file->frames), 0);
+  history_.begin(state());
+  keep_recent();
 }
 
 void App::open_built_in(const std::string& name, const ScenarioParameters& parameters) {
@@ -94,7 +98,9 @@ void App::open_built_in(const std::string& name, const ScenarioParameters& param
     request_.scenario = parameters;
   }
   opened(facts);
-  if (facts) take_frames(nullptr, 0);
+  if (!facts) return;
+  take_frames(nullptr, 0);
+  history_.begin(state());
 }
 
 // The same input read in another way, with the same appearance and settings. A camera that was not moved is placed
@@ -170,6 +176,12 @@ void App::apply(const ViewerLook& look) {
   cards_.changed(viewer_, false);
 }
 
+// A screenshot leaves no trace.
+void App::keep_recent() {
+  if (request_.screenshot.empty() && !is_built_in_scene(input_)) recent_.add(input_);
+  cards_.file.recent = recent_.paths();
+}
+
 void App::zoom(double factor) {
   const ImVec2 size = picture_size();
   framed_ = false;
@@ -203,13 +215,19 @@ void App::follow(const CardRequests& requests) {
     file_to_open_ = *requests.open.file;
     cards_.close();
   }
+  if (requests.open.forget) {
+    recent_.forget();
+    cards_.file.recent.clear();
+  }
   if (requests.copy) copy_command(*requests.copy);
   if (requests.save) begin_save();
   if (requests.tune) begin_search();
   if (requests.help) help_shown_ = true;
+  if (requests.undo != 0) undo(requests.undo);
 }
 
-std::string App::command(CommandOf kind) const {
+// Another frame is no other state.
+ShownState App::state() const {
   ShownState state;
   state.input = input_;
   for (const BuiltInScene& one : kBuiltInScenes)
@@ -219,7 +237,6 @@ std::string App::command(CommandOf kind) const {
       if (request_.scenario.seed != usual.seed) state.seed = request_.scenario.seed;
     }
   state.reading = cards_.reading;
-  if (reader_ && (frame_in_viewer_ > 0 || state.reading.has("frame"))) state.reading.set_frame(frame_in_viewer_);
   state.settings = viewer_.settings();
   state.look = viewer_.look();
   state.own_camera = framed_;
@@ -228,8 +245,39 @@ std::string App::command(CommandOf kind) const {
   const PictureSizePx size = cards_.save.size({static_cast<int>(screen.x), static_cast<int>(screen.y)});
   state.width_px = size.width;
   state.height_px = size.height;
+  return state;
+}
+
+void App::note_state() {
+  history_.note(state(), frames_of_act_ > 0, now_ms());
+  frames_of_act_ = std::max(0, frames_of_act_ - 1);
+}
+
+void App::undo(int by) {
+  const std::string what = history_.next(by);
+  const ShownState* const before = history_.go(by);
+  if (before == nullptr) return say(by < 0 ? "nothing to undo" : "nothing to redo", false);
+  const ShownState wanted = *before;
+  message_.clear();
+  if (reading_to_json(wanted.reading) != reading_to_json(cards_.reading)) read_again(wanted.reading);
+  const bool other_copies = wanted.settings.replicate != viewer_.settings().replicate;
+  const Result<std::vector<std::int64_t>> counts = viewer_.set_look(wanted.look);
+  const Status set = counts ? viewer_.set(wanted.settings) : Status(counts.error());
+  cards_.rows.start_anew(viewer_.look());
+  cards_.changed(viewer_, other_copies);
+  search_.reset();
+  framed_ = wanted.own_camera;
+  side_ = wanted.side;
+  frames_of_act_ = 0;
+  if (message_is_bad_ && !message_.empty()) return;
+  say(set ? (by < 0 ? "undone: " : "redone: ") + what : set.error().to_string(), !set);
+}
+
+std::string App::command(CommandOf kind) const {
+  ShownState shown = state();
+  if (reader_ && (frame_in_viewer_ > 0 || shown.reading.has("frame"))) shown.reading.set_frame(frame_in_viewer_);
   const std::filesystem::path output(cards_.save.file_name);
-  return command_text(kind, state, (output.parent_path() / output.stem()).string());
+  return command_text(kind, shown, (output.parent_path() / output.stem()).string());
 }
 
 void App::copy_command(CommandOf kind) {
@@ -299,6 +347,7 @@ void App::take_search() {
   settings.max_prims = found->tree.max_prims;
   settings.max_depth = found->tree.max_depth;
   apply(settings);
+  act();
   say(found->text(), false);
 }
 
@@ -480,6 +529,8 @@ void App::draw(const FrameReport& report, Image* screenshot) {
   CardRequests requests;
   const std::string open = cards_.open();
   cards_.searches = search_ != nullptr;
+  cards_.undoes = history_.next(-1);
+  cards_.redoes = history_.next(1);
   if (cards_.open() == "share") cards_.command = command(cards_.command_of);
   if (controls_shown_) requests = cards_.draw(viewer_, report, now, input_, covered_);
   PlayerRequests played;
@@ -490,6 +541,7 @@ void App::draw(const FrameReport& report, Image* screenshot) {
   if (open != cards_.open()) wake();
   follow(requests);
   follow(played);
+  note_state();
 }
 
 }  // namespace bihive::window

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "bihive/io/frames.h"
+#include "bihive/viewer/history.h"
 #include "bihive/viewer/player.h"
+#include "bihive/viewer/recent_files.h"
 #include "bihive/viewer/viewer.h"
 #include "cards.h"
 #include "frame_reader.h"
@@ -52,6 +54,8 @@ class App {
   bool over_picture() const;
   void on_drop(std::vector<std::string> paths);
   void wake() { frames_to_draw_ = 3; }
+  /// The user has done something, of which a state of the next frames may come.
+  void act() { frames_of_act_ = 3; }
   bool types_path() const;
   void pin(double x_px, double y_px);
   void approach(double x_px, double y_px);
@@ -66,7 +70,11 @@ class App {
   void follow(const CardRequests& requests);
   void zoom(double factor);
   void home();
+  void keep_recent();
   void say(const std::string& text, bool bad);
+  ShownState state() const;
+  void note_state();
+  void undo(int by);
   std::string command(CommandOf kind) const;
   void copy_command(CommandOf kind);
   void open_card(const std::string& id) { cards_.show(id, input_); }
@@ -124,6 +132,9 @@ class App {
   bool dropped_several_ = false;
   bool path_is_new_ = false;  // the letter of the key that opened the card comes after that key
   int frames_to_draw_ = 3;    // frames of the window still to draw, at least
+  RecentFiles recent_{RecentFiles::usual_list()};
+  History history_;        // of the scene that is shown
+  int frames_of_act_ = 0;  // above 0: what changes in this frame the user has changed
 
   struct Save {
     std::string path;

@@ -45,22 +45,28 @@ std::string utf8_of(unsigned character) {
 void App::listen(GLFWwindow* window) {
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     app_of(w).wake();
+    app_of(w).act();
     app_of(w).on_key(key, action, mods);
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
     app_of(w).wake();
+    app_of(w).act();
     app_of(w).on_button(button, action, mods);
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     app_of(w).wake();
+    for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE})
+      if (glfwGetMouseButton(w, button) == GLFW_PRESS) app_of(w).act();
     app_of(w).on_cursor(x, y);
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) {
     app_of(w).wake();
+    app_of(w).act();
     app_of(w).on_wheel(dy);
   });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
     app_of(w).wake();
+    app_of(w).act();
     app_of(w).on_character(character);
   });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { app_of(w).wake(); });
@@ -117,6 +123,11 @@ void App::on_key(int key, int action, int mods) {
   // Letters by the layout of the user's keyboard.
   const char* const name = glfwGetKeyName(key, 0);
   const char letter = key == GLFW_KEY_HOME ? 'r' : name == nullptr ? '\0' : name[0];
+  if ((mods & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) != 0) {
+    if (letter == 'z') undo((mods & GLFW_MOD_SHIFT) != 0 ? 1 : -1);
+    if (letter == 'y') undo(1);
+    return;
+  }
   if (letter == ',') return step_frames(-1);
   if (letter == '.') return step_frames(1);
   if (again) return;

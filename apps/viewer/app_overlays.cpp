@@ -18,7 +18,7 @@ constexpr float kBelowChip = 98;
 constexpr float kMostWidth = 440;
 
 // Keys and what they do, as docs/viewer.md has them.
-constexpr std::array<std::pair<const char*, const char*>, 18> kKeys{{
+constexpr std::array<std::pair<const char*, const char*>, 19> kKeys{{
     {"drag", "turns the scene"},
     {"drag with Shift, or another button", "shifts it"},
     {"wheel, + and -", "closer, farther"},
@@ -31,6 +31,7 @@ constexpr std::array<std::pair<const char*, const char*>, 18> kKeys{{
     {"R, Home", "shows all"},
     {"O", "opens a file: Tab completes, ~ is your own folder"},
     {"S", "saves the picture"},
+    {"Ctrl+Z, Shift+Ctrl+Z", "undo, redo"},
     {"C", "copies the picture as a command"},
     {"space , .", "play, one frame back, one on"},
     {"H", "hides the controls"},

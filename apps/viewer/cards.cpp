@@ -238,6 +238,10 @@ void Cards::draw_zoom(const Viewer& viewer, const Layout& layout, CardRequests& 
           ImGui::ColorConvertFloat4ToU32(kColours[i]), kAxes[i].first);
     }
   }
+  if (layout.picture.y > 11 * side) {
+    if (!undoes.empty() && button("Undo", ("Undo " + undoes + " (Ctrl+Z)").c_str())) requests.undo = -1;
+    if (!redoes.empty() && button("Redo", ("Redo " + redoes + " (Shift+Ctrl+Z)").c_str())) requests.undo = 1;
+  }
   if (button("+", "Closer (+)")) requests.zoom = kZoomOfButton;
   if (button("-", "Farther (-)")) requests.zoom = 1 / kZoomOfButton;
   if (button("Home", "Show all (Home, R)")) requests.home = true;

@@ -36,6 +36,7 @@ struct CardRequests {
   std::optional<CommandOf> copy;
   bool home = false, save = false, tune = false, help = false;
   double zoom = 1;
+  int undo = 0;  ///< -1: goes one state back; 1: goes on
 };
 
 /// Where things are in a display of some size, in ImGui's units.
@@ -84,7 +85,8 @@ class Cards {
   GivenReading reading;  ///< of the shown input
   std::string command;   ///< of the kind that is chosen in "Share"
   CommandOf command_of = CommandOf::picture;
-  bool searches = false;  ///< a search of the tree's limits is running
+  std::string undoes, redoes;  ///< what undo and redo would change; empty: there is nothing
+  bool searches = false;       ///< a search of the tree's limits is running
 
  private:
   void draw_bar(const Layout& layout, const std::string& input, Covered& covered);

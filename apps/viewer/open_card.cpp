@@ -93,6 +93,16 @@ OpenRequests OpenCard::draw(const Viewer& viewer, Fields& fields) {
   ImGui::EndChild();
   if (clicked) requests.file = take(*clicked);
 
+  if (!recent.empty()) {
+    label("Recent");
+    if (ImGui::BeginCombo("##recent", "opened before", ImGuiComboFlags_HeightLarge)) {
+      for (const std::string& path : recent)
+        if (ImGui::Selectable(path.c_str())) requests.file = path;
+      ImGui::Separator();
+      if (ImGui::Selectable("Forget these names")) requests.forget = true;
+      ImGui::EndCombo();
+    }
+  }
   const SceneFacts& facts = viewer.facts();
   const BuiltInScene* shown = nullptr;
   for (const BuiltInScene& one : kBuiltInScenes)

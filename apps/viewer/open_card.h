@@ -16,6 +16,7 @@ namespace bihive::window {
 struct OpenRequests {
   std::optional<std::string> file, built_in;
   std::optional<std::int64_t> count;  ///< of a scenario, which is shown already
+  bool forget = false;                ///< the files that were opened before
 };
 
 class OpenCard {
@@ -32,6 +33,8 @@ class OpenCard {
   std::optional<std::string> take();
 
   OpenRequests draw(const Viewer& viewer, Fields& fields);
+
+  std::vector<std::string> recent;  ///< paths, the newest first
 
  private:
   void list();

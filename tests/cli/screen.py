@@ -4,6 +4,7 @@ files onto a window by the protocol of file managers (XDND, version 5)."""
 import os
 import pathlib
 import subprocess
+import tempfile
 import time
 
 import Xlib.display
@@ -20,6 +21,7 @@ class Screen:
         command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-nolisten", "tcp", *options]
         self.server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
+        self.state = tempfile.TemporaryDirectory()  # what programs on this screen keep
         with os.fdopen(read) as number:
             self.display = ":" + number.readline().strip()
         # The server restarts when its last client goes; this client stays.
@@ -35,12 +37,13 @@ class Screen:
 
     def environment(self):
         environment = {key: value for key, value in os.environ.items() if key != "WAYLAND_DISPLAY"}
-        return {**environment, "DISPLAY": self.display, "LIBGL_ALWAYS_SOFTWARE": "1"}
+        return {**environment, "DISPLAY": self.display, "XDG_STATE_HOME": self.state.name, "LIBGL_ALWAYS_SOFTWARE": "1"}
 
     def end(self):
         self.client.close()
         self.server.terminate()
         self.server.wait()
+        self.state.cleanup()
 
     def clipboard(self):
         """The text that a program has copied."""

@@ -388,7 +388,15 @@ class Window(ProgramTest):
         self.assertEqual(self.saved()["camera"], nearer)
         self.press("Left", "minus")
         self.assertGreater(distance(self.saved()["camera"]), distance(nearer))
+        time.sleep(1.5)  # what comes later is another change
         self.press("r")
+        self.assertEqual(self.saved()["camera"], first["camera"])
+
+        # Undo and redo, by their keys.
+        self.press("ctrl+z")
+        undone = self.saved()["camera"]
+        self.assertGreater(distance(undone), distance(nearer))
+        self.press("ctrl+shift+z")
         self.assertEqual(self.saved()["camera"], first["camera"])
 
         # Where controls are hidden, there is the picture.
@@ -425,6 +433,8 @@ class Window(ProgramTest):
         open_file("pair.csv")
         pair = self.saved()
         self.assertEqual((pair["scene"], pair["name"]), ("pair.csv", "pair.png"))
+        with open(os.path.join(self.screen.state.name, "bihive", "recent"), encoding="utf-8") as recent:
+            self.assertEqual([os.path.basename(line.strip()) for line in recent][:2], ["pair.csv", "titled.xyz"])
 
         self.press("q")
         self.assertEqual(self.program.wait(timeout=PATIENCE_S), 0)
