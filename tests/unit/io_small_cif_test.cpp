@@ -152,7 +152,8 @@ TEST(SmallCif, SaysWhereItIsWrong) {
   EXPECT_EQ(error_of(with(kListed, "-x,-y,z+1/2", "-x,-y,q"), "a")
                 .rfind("a:8: block 'listed': expected an operation of symmetry", 0),
             0u);
-  EXPECT_EQ(error_of(with(kSalt, "0.75 ?\n", "\n"), "a").rfind("a:", 0), 0u) << "a row is too short";
+  EXPECT_EQ(error_of(with(kSalt, "0.75 ?\n", "\n"), "a"),
+            "a:10:1: this is no CIF: the last row of this loop has 5 of its 7 values");
   for (std::size_t length = 0; length < kSalt.size(); ++length)
     (void)read_spheres_from_memory(std::string_view(kSalt).substr(0, length), "a.cif", {});
 }

@@ -127,7 +127,7 @@ Result<std::optional<RawSpheres>> read_chem_comp(std::string_view text, const st
   namespace cif = gemmi::cif;
   cif::Document document;
   tao::pegtl::memory_input<> input(text.data(), text.size(), file);
-  tao::pegtl::parse<cif::rules::file, cif::Action, CifErrors>(input, document);
+  tao::pegtl::parse<cif::rules::file, CifActions, CifErrors>(input, document);
   std::vector<std::pair<cif::Block*, const PlaceTags*>> monomers;
   for (cif::Block& block : document.blocks)
     if (const PlaceTags* place = best_places(block)) monomers.emplace_back(&block, place);

@@ -1,6 +1,7 @@
 // Faults of CIF's grammar.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <gemmi/cif.hpp>
 #include <stdexcept>
@@ -11,7 +12,7 @@
 namespace bihive {
 
 /// The text breaks the rules of CIF. In place of pegtl::parse_error, which writes its position by streams, and these
-/// bring every locale into the page's module.
+/// bring every locale into the page's module (PLACEHOLDER).
 struct CifFault : std::runtime_error {
   CifFault(const std::string& message, const tao::pegtl::position& at)
       : std::runtime_error(message),
@@ -29,6 +30,22 @@ struct CifErrors : tao::pegtl::normal<Rule> {
   template <class Input, class... States>
   [[noreturn]] static void raise(const Input& in, States&&... /*unused*/) {
     throw CifFault(gemmi::cif::error_message<Rule>(), in.position());
+  }
+};
+
+/// gemmi::cif::Action with that.
+template <class Rule>
+struct CifActions : gemmi::cif::Action<Rule> {};
+template <>
+struct CifActions<gemmi::cif::rules::loop> {
+  template <class Input>
+  static void apply(const Input& in, gemmi::cif::Document& out) {
+    const gemmi::cif::Loop& loop = out.items_->back().loop;
+    const std::size_t values = loop.values.size() % loop.tags.size();
+    if (values != 0)
+      throw CifFault("the last row of this loop has " + std::to_string(values) + " of its " +
+                         std::to_string(loop.tags.size()) + " values",
+                     in.position());
   }
 };
 

@@ -282,7 +282,7 @@ Result<RawSpheres> read_small_cif(std::string_view text, const std::string& file
     namespace cif = gemmi::cif;
     cif::Document document;
     tao::pegtl::memory_input<> input(text.data(), text.size(), file);
-    tao::pegtl::parse<cif::rules::file, cif::Action, CifErrors>(input, document);
+    tao::pegtl::parse<cif::rules::file, CifActions, CifErrors>(input, document);
     std::int64_t frames = 0;
     cif::Block* wanted = nullptr;
     for (cif::Block& block : document.blocks) {
