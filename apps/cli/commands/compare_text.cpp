@@ -204,6 +204,9 @@ std::string tuning_text(const workbench::Tuning& tuning, const std::string& name
   if (tuning.best.is_own())
     text += fmt::format("{}: nothing to gain; no choice is {:.0f} % faster than its own\n", tuning.row.name,
                         100 * workbench::kAsGood);
+  else if (tuning.gain() <= 1 + workbench::kAsGood)
+    text += fmt::format("{}: as fast by the clock as its own choice, and {} less time by counted steps, with{}\n",
+                        tuning.row.name, percent_text(1 - tuning.best.counted_ns / tuning.own.counted_ns), options);
   else
     text += fmt::format("{}: {} times as fast with{}\n", tuning.row.name, short_number(tuning.gain()), options);
   text += fmt::format("\n{:<28}{:>8}{:>16}{:>18}{:>16}{:>10}\n", "costs here, ns", "query", "inner node", "leaf",

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "bihive/base/near_name.h"
 #include "bihive/base/parallel.h"
 #include "bihive/base/parse_number.h"
-#include "bihive/base/thread_timer.h"
 #include "bihive/base/timer.h"
 #include "bihive/compare/run_queries.h"
+#include "bihive/math/quartiles.h"
 
 namespace bihive::workbench {
 namespace {
@@ -51,38 +54,77 @@ Result<std::vector<StructureRow>> swept_rows(const SweepOptions& options) {
   return rows;
 }
 
-Result<SweepPoint> measure_point(const StructureRow& row, const StructureParameters& parameters,
-                                 const SphereSet& spheres, int threads, const std::vector<AnsweredSet>& sets) {
+// Trees that are timed in turn, so that what slows a machine down for a while slows all of them down.
+constexpr std::size_t kTurns = 7;
+constexpr double kTurnMs = 10;                              // of a kind
+constexpr std::int64_t kMostBytes = std::int64_t{2} << 30;  // of the trees that are there at a time
+
+// A point whose tree is there.
+struct BuiltPoint {
   SweepPoint point;
+  StructurePointer structure;
+  std::vector<std::optional<QuerySet>> samples;  // where the structure cannot afford all queries of a kind
+  std::vector<std::vector<double>> times;        // of a kind: rounds, in nanoseconds of a query
+
+  const QuerySet& set(const std::vector<AnsweredSet>& sets, std::size_t kind) const {
+    return samples[kind] ? *samples[kind] : sets[kind].set;
+  }
+};
+
+// Builds the tree, compares its answers, and counts their work.
+Result<BuiltPoint> build_point(const StructureRow& row, const StructureParameters& parameters, const SphereSet& spheres,
+                               int threads, const std::vector<AnsweredSet>& sets) {
+  BuiltPoint built;
+  SweepPoint& point = built.point;
   point.parameters = parameters;
   const Timer timer;
-  const Result<StructurePointer> structure = row.build(spheres, parameters, threads);
+  Result<StructurePointer> structure = row.build(spheres, parameters, threads);
   if (!structure) return structure.error();
+  built.structure = std::move(*structure);
   point.build_ms = timer.elapsed_ms();
-  point.facts = (*structure)->facts();
-  double kinds = 0;
-  for (const AnsweredSet& one : sets) {
+  point.facts = built.structure->facts();
+  built.samples.resize(sets.size());
+  built.times.resize(sets.size());
+  for (std::size_t k = 0; k < sets.size(); ++k) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     point.kinds.push_back({kNone, kNone});
-    if (one.set.size() == 0) continue;
-    const QuerySet set = sample_of(one.set, affordable(**structure, one.set));
+    if (sets[k].set.size() == 0) continue;
+    const std::int64_t affordable_queries = affordable(*built.structure, sets[k].set);
+    if (affordable_queries < sets[k].set.size()) built.samples[k] = sample_of(sets[k].set, affordable_queries);
+    const QuerySet& set = built.set(sets, k);
     double work = 0;
-    for (const Work& of_query : count_all(**structure, set, threads)) work += of_query.cost();
+    for (const Work& of_query : count_all(*built.structure, set, threads)) work += of_query.cost();
+    point.kinds.back().work = work / static_cast<double>(set.size());
     Answers answers;
     answers.resize(set.size());
-    const ThreadTimer first(threads);
-    answer_all(**structure, set, threads, answers);
-    const double first_ms = first.elapsed_ms();
-    point.different += one.count_different(answers);
-    const double ms = time_of_answers(**structure, set, threads, first_ms, {}, answers);
-    const auto queries = static_cast<double>(set.size());
-    point.kinds.back() = {work / queries, ms * 1e6 / queries};
-    point.mean.work += work / queries;
-    point.mean.ns += ms * 1e6 / queries;
+    answer_all(*built.structure, set, threads, answers);
+    point.different += sets[k].count_different(answers);
+  }
+  return built;
+}
+
+void time_round(BuiltPoint& built, int threads, const std::vector<AnsweredSet>& sets) {
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const QuerySet& set = built.set(sets, k);
+    if (set.size() == 0) continue;
+    const double ms = time_of_answers(*built.structure, set, threads, {kTurnMs, 0, 1});
+    built.times[k].push_back(ms * 1e6 / static_cast<double>(set.size()));
+  }
+}
+
+// The point, after all rounds.
+SweepPoint finished(BuiltPoint& built) {
+  SweepPoint& point = built.point;
+  double kinds = 0;
+  for (std::size_t k = 0; k < built.times.size(); ++k) {
+    if (built.times[k].empty()) continue;
+    point.kinds[k].ns = median(built.times[k]);
+    point.mean.work += point.kinds[k].work;
+    point.mean.ns += point.kinds[k].ns;
     ++kinds;
   }
   point.mean.work /= kinds, point.mean.ns /= kinds;
-  return point;
+  return std::move(point);
 }
 
 const SweepPoint& least(const std::vector<SweepPoint>& points, double SweepCost::*cost) {
@@ -149,14 +191,33 @@ Result<Sweep> sweep_parameters(const Scene& scene, const SweepOptions& options) 
   const Result<std::vector<AnsweredSet>> sets = answered_sets(scene, sweep.kinds, options.count, sweep.threads);
   if (!sets) return sets.error();
   for (const AnsweredSet& one : *sets) sweep.queries.push_back(one.set.size());
+  const auto report = [&](std::size_t more) {
+    done += more;
+    if (options.progress) options.progress(static_cast<double>(done) / static_cast<double>(points * (1 + kTurns)));
+  };
   for (const StructureRow& row : *rows) {
     SweptStructure swept{row, {}};
+    std::vector<BuiltPoint> built;
+    std::int64_t bytes = 0;
+    const auto time_in_turn = [&] {
+      for (std::size_t round = 0; round < kTurns; ++round)
+        for (BuiltPoint& one : built) {
+          time_round(one, sweep.threads, *sets);
+          report(1);
+        }
+      for (BuiltPoint& one : built) swept.points.push_back(finished(one));
+      built.clear();
+      bytes = 0;
+    };
     for (const StructureParameters& parameters : combinations_of(row, options.values)) {
-      Result<SweepPoint> point = measure_point(row, parameters, scene.spheres, sweep.threads, *sets);
-      if (!point) return point.error();
-      swept.points.push_back(std::move(*point));
-      if (options.progress) options.progress(static_cast<double>(++done) / static_cast<double>(points));
+      Result<BuiltPoint> one = build_point(row, parameters, scene.spheres, sweep.threads, *sets);
+      if (!one) return one.error();
+      bytes += one->point.facts.bytes;
+      built.push_back(std::move(*one));
+      report(1);
+      if (bytes > kMostBytes) time_in_turn();
     }
+    time_in_turn();
     const double work = swept.best_by_work().mean.work, ns = swept.best_by_time().mean.ns;
     for (SweepPoint& point : swept.points) {
       point.good_by_work = point.mean.work <= work * (1 + kAsGood);

@@ -20,8 +20,9 @@ constexpr std::int64_t kCutLevels[] = {1, 2};  // fewer than the best trees have
 constexpr std::size_t kTimedAtMost = 8;
 constexpr double kCalibrationMs = 50;
 constexpr double kRoundMs = 10;
-constexpr std::int64_t kFirstRounds = 3;  // of all candidates; those that remain get as many again, and so on
-constexpr double kShareOfBuilds = 0.3;    // of the progress
+// Of all candidates, of the better half of them, and of the better half of those.
+constexpr std::int64_t kRounds[] = {3, 6, 24};
+constexpr double kShareOfBuilds = 0.3;  // of the progress
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Built {
@@ -194,24 +195,26 @@ class Tuner {
     const Unwatched unwatched;
     const Timer timer;
     const auto time_left = [&] { return timer.elapsed_ms() < options_.most_ms && !work_.cancelled(); };
-    double all = 0, done = 0;  // rounds of a candidate
     const auto half = [](std::size_t count) { return (count + 1) / 2; };
-    std::int64_t rounds = kFirstRounds;
-    for (std::size_t count = racing.size();; count = half(count), rounds *= 2) {
+    double all = 0, done = 0;  // rounds of a candidate
+    std::size_t count = racing.size();
+    for (const std::int64_t rounds : kRounds) {
       all += static_cast<double>(rounds) * static_cast<double>(count + 1);
-      if (count <= 1) break;
+      count = half(count);
     }
-    for (rounds = kFirstRounds;; rounds *= 2) {
+    for (const std::int64_t rounds : kRounds) {
+      if (!own->times.empty()) {
+        std::stable_sort(racing.begin(), racing.end(),
+                         [](const Built* a, const Built* b) { return median(a->times) < median(b->times); });
+        racing.resize(half(racing.size()));
+      }
       for (std::int64_t round = 0; round < rounds && (time_left() || own->times.empty()); ++round) {
         own->times.push_back(round_of(*own));
         for (Built* one : racing) one->times.push_back(round_of(*one));
         done += static_cast<double>(racing.size() + 1);
         report(kShareOfBuilds + (1 - kShareOfBuilds) * done / all);
       }
-      std::stable_sort(racing.begin(), racing.end(),
-                       [](const Built* a, const Built* b) { return median(a->times) < median(b->times); });
-      if (racing.size() <= 1 || !time_left()) break;
-      racing.resize(half(racing.size()));
+      if (!time_left()) break;
     }
     if (!work_.cancelled()) report(1);
     for (Built& one : built_) {
@@ -225,8 +228,24 @@ class Tuner {
                        return a.rounds > 0 ? a.ns < b.ns : a.work < b.work;
                      });
     tuning_.own = own->candidate;
-    const TuneCandidate& fastest = (racing.empty() ? own : racing.front())->candidate;
-    tuning_.best = fastest.ns * (1 + kAsGood) < own->candidate.ns ? fastest : own->candidate;
+    racing.push_back(own);
+    tuning_.best = chosen_of(racing);
+  }
+
+  // Clocks differ from run to run by more than kAsGood; counts do not.
+  static TuneCandidate chosen_of(std::vector<Built*>& finalists) {
+    const auto by = [](double TuneCandidate::*time) {
+      return [time](const Built* a, const Built* b) { return a->candidate.*time < b->candidate.*time; };
+    };
+    const double fastest =
+        (*std::min_element(finalists.begin(), finalists.end(), by(&TuneCandidate::ns)))->candidate.ns;
+    const auto slower = std::partition(finalists.begin(), finalists.end(),
+                                       [&](const Built* one) { return one->candidate.ns <= fastest * (1 + kAsGood); });
+    const Built& least = **std::min_element(finalists.begin(), slower, by(&TuneCandidate::counted_ns));
+    const auto own = std::find_if(finalists.begin(), slower, [](const Built* one) { return one->candidate.is_own(); });
+    const bool own_is_as_good =
+        own != slower && !((*own)->candidate.counted_ns > least.candidate.counted_ns * (1 + kAsGood));
+    return own_is_as_good ? (*own)->candidate : least.candidate;
   }
 };
 

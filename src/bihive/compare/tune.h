@@ -44,17 +44,19 @@ struct Tuning {
   std::vector<CostFit> costs;  ///< of one thread, by kind; none found where the kind has too few queries or trees
   double calibration_ms = 0;
   std::vector<TuneCandidate> candidates;  ///< the longest timed first, then by time, the others by work
-  /// The choice: the fastest by the clock of those timed to the end; the structure's own where that gains less than
-  /// kAsGood (sweep.h).
+  /// The choice. Of those timed to the end, all that are within kAsGood (sweep.h) of the fastest are as good by the
+  /// clock; of these it is the structure's own, or, if that is expected to need more than kAsGood more time by counted
+  /// work, the one of which the least is expected.
   TuneCandidate best, own;
 
-  /// How many times as fast the choice is, by the medians of interleaved rounds; 1 for the structure's own.
-  double gain() const { return best.is_own() ? 1 : own.ns / best.ns; }
+  /// How many times as fast the choice is, by the medians of interleaved rounds; 1 where it is as good as the
+  /// structure's own.
+  double gain() const { return best.is_own() || best.ns > own.ns ? 1 : own.ns / best.ns; }
 };
 
 /// Builds the structure with max_prims from 1 to 64, and those that need the least time by counted work with fewer
 /// levels too. The costs of its steps, for each kind of queries its own, come from a calibration of about 50 ms. Then
-/// rounds in turn, of about 10 ms each, until half of the candidates remain, and so on to the last one: successive
+/// rounds in turn, of about 10 ms each, until half of the candidates remain, and so on to the last four: successive
 /// halving. Counts do not depend on the machine, the choice does. Errors: an unknown structure, one without parameters,
 /// or one that cannot be built. A Watch of the thread (base/watch.h) hears of the progress, and ends the search between
 /// two builds or rounds.

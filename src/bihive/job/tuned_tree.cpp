@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bihive/base/setting_name.h"
+#include "bihive/compare/sweep.h"
 #include "bihive/compare/tune.h"
 #include "bihive/job/failure.h"
 #include "bihive/scene/names.h"
@@ -21,6 +22,8 @@ std::string TunedTree::text() const {
   add("max_prims", tree.max_prims);
   add("max_depth", tree.max_depth);
   if (chosen.empty()) return "no other tree is faster than the engine's own choice";
+  if (gain <= 1 + workbench::kAsGood)
+    return chosen + ": as fast by the clock as the engine's own choice, and faster by counted steps";
   return fmt::format("{}: {:.3g} times as fast as the engine's own choice", chosen, gain);
 }
 

@@ -1,6 +1,7 @@
 // Sticks (geometry/stick_set.h) beside the spheres between which they are.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <numeric>
@@ -24,7 +25,7 @@ namespace bihive {
 class StickEngine final : public RayEngine {
  public:
   /// Of all sticks. Spheres and sticks must outlive it. `cuts`: what clips leave of them; null: all. std::bad_alloc:
-  /// there is not enough memory. Within a WatchedWork, without vectors, it may throw Cancelled.
+  /// there is not enough memory. Within a WatchedWork it may throw Cancelled.
   StickEngine(const SphereSet& spheres, const StickSet& sticks, std::shared_ptr<const RayEngine> of_spheres,
               std::shared_ptr<const CutSet> cuts, bool by_vectors)
       : StickEngine(spheres, sticks, all_of(sticks), std::move(of_spheres), std::move(cuts), by_vectors) {}
@@ -212,15 +213,11 @@ class StickEngine final : public RayEngine {
       number_[i] = number;
       best_[i] = best;
     }
-    /// Calls take(number, hit) for each ray, after block or run was traced, or one(number) where they do not suit.
+    /// Calls take(number, hit) for each ray that was traced with others, one(number) for those that have no company.
     template <class Take, class One>
     void trace(const Take& take, const One& one) {
-      if (trace_part(0, rays_.size(), take)) return;
-      for (std::size_t first = 0; first < rays_.size(); first += kRun) {
-        const std::size_t end = std::min(first + kRun, rays_.size());
-        if (trace_part(first, end, take)) continue;
-        for (std::size_t i = first; i < end; ++i) one(number_[i]);
-      }
+      std::iota(order_, order_ + rays_.size(), std::uint8_t{0});
+      trace_part(0, rays_.size(), take, one);
     }
 
     Stick stick(std::int64_t index) const override {
@@ -229,7 +226,7 @@ class StickEngine final : public RayEngine {
     void test(std::int64_t index, const Stick& stick, std::uint64_t near, const StickBlockRoots& roots) override {
       for (; near != 0; near &= near - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctzll(near));
-        const std::size_t i = first_ + lane;
+        const std::size_t i = order_[first_ + lane];
         const StickHit hit =
             roots.has_side ? stick_hit(rays_[i], stick, roots.of_ray(lane)) : stick_hit(rays_[i], stick);
         best_[i].keep_nearer(hit.t, engine_.id_of(number_of(index), hit));
@@ -238,23 +235,60 @@ class StickEngine final : public RayEngine {
     }
 
    private:
-    static constexpr std::size_t kRun = 16;
+    static constexpr std::size_t kFewest = 8;  // that are worth a traversal of their own
 
-    template <class Take>
-    bool trace_part(std::size_t first, std::size_t end, const Take& take) {
-      block_.clear();
-      first_ = first;
-      for (std::size_t i = first; i < end; ++i) block_.add(rays_[i].ray, best_[i].t);
-      if (!traverse(engine_.wide_tree_, block_, kPadOfSticks, *this)) return false;
-      for (std::size_t i = first; i < end; ++i) take(number_[i], best_[i]);
-      return true;
+    // The rays order_[first], ... If they are too far from each other, it takes those on both sides of the middle
+    // alone: neighbours in a picture may begin on surfaces one behind the other.
+    template <class Take, class One>
+    void trace_part(std::size_t first, std::size_t end, const Take& take, const One& one) {
+      if (end - first >= kFewest) {
+        block_.clear();
+        first_ = first;
+        for (std::size_t i = first; i < end; ++i) block_.add(rays_[order_[i]].ray, best_[order_[i]].t);
+        if (traverse(engine_.wide_tree_, block_, kPadOfSticks, *this)) {
+          for (std::size_t i = first; i < end; ++i) take(number_[order_[i]], best_[order_[i]]);
+          return;
+        }
+        if (const std::size_t middle = split(first, end); middle != end) {
+          trace_part(first, middle, take, one);
+          trace_part(middle, end, take, one);
+          return;
+        }
+      }
+      for (std::size_t i = first; i < end; ++i) one(number_[order_[i]]);
+    }
+    // Sorts rays to both sides of the middle of their origins, along that axis across the first ray on which they
+    // differ most. `end`: they do not differ.
+    std::size_t split(std::size_t first, std::size_t end) {
+      std::size_t along = 0, axis = 0;
+      double widest = 0, middle = 0;
+      const Vec3d& direction = rays_[order_[first]].ray.direction;
+      for (std::size_t a = 1; a < 3; ++a)
+        if (std::abs(direction[a]) > std::abs(direction[along])) along = a;
+      for (std::size_t a = 0; a < 3; ++a) {
+        if (a == along) continue;
+        double least = rays_[order_[first]].ray.origin[a], largest = least;
+        for (std::size_t i = first + 1; i < end; ++i) {
+          least = std::min(least, rays_[order_[i]].ray.origin[a]);
+          largest = std::max(largest, rays_[order_[i]].ray.origin[a]);
+        }
+        if (!(largest - least > widest)) continue;
+        axis = a;
+        widest = largest - least;
+        middle = least + 0.5 * widest;
+      }
+      if (widest == 0) return end;
+      const auto* const behind = std::partition(order_ + first, order_ + end,
+                                                [&](std::uint8_t i) { return rays_[i].ray.origin[axis] <= middle; });
+      return static_cast<std::size_t>(behind - order_);
     }
     std::int64_t number_of(std::int64_t index) const { return engine_.numbers_[static_cast<std::size_t>(index)]; }
 
     const StickEngine& engine_;
     bool any_hit_;
     StickBlock block_;
-    std::size_t first_ = 0;  // ray in lane 0
+    std::uint8_t order_[StickBlock::kRays];  // NOLINT: written before read
+    std::size_t first_ = 0;                  // lane 0 has the ray order_[first_]
     std::vector<StickRay> rays_;
     std::int64_t number_[StickBlock::kRays];  // NOLINT: written before read
     Hit best_[StickBlock::kRays];

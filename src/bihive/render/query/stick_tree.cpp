@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "bihive/base/watch.h"
+
 namespace bihive {
 namespace {
 
@@ -28,6 +30,8 @@ double half_surface(const Aabb& box) {
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
+constexpr std::size_t kWatchedRange = 1024;  // takes some 0.1 ms
+
 class Builder {
  public:
   Builder(const std::vector<Aabb>& boxes, std::vector<StickNode>& nodes) : nodes_(nodes) {
@@ -43,12 +47,14 @@ class Builder {
       Range range;
     };
     int levels = 0;
+    WatchedWork* const work = WatchedWork::current();
     nodes_.emplace_back();
     std::vector<Pending> pending{{0, 1, {0, sticks_.size(), whole}}};
     while (!pending.empty()) {
       const auto [number, level, range] = pending.back();
       pending.pop_back();
       levels = std::max(levels, level);
+      if (work != nullptr && range.size() >= kWatchedRange) work->stop_if_cancelled();
       divide(range);
       StickNode made;
       for (std::size_t slot = 0; slot < kStickWidth; ++slot) {

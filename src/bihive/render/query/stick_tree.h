@@ -23,6 +23,7 @@ class StickTree {
  public:
   StickTree() = default;
   /// Of fewer than 2^31 boxes, each of which is a stick's own. std::bad_alloc: there is not enough memory.
+  /// Within a WatchedWork it may throw Cancelled.
   explicit StickTree(const std::vector<Aabb>& boxes);
 
   /// nodes()[0] is the root; without sticks there is none.

@@ -13,6 +13,7 @@
 #include "bihive/render/query/stick_roots-inl.h"
 #include "bihive/render/query/waiting_children.h"
 #include "bihive/simd/dispatch.h"
+#include "bihive/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bihive {
@@ -25,7 +26,7 @@ constexpr double kNowhere = -std::numeric_limits<double>::infinity();
 // The steepest ray across the axis along which all go, and the widest spread of slopes.
 constexpr double kMostSlope = 4, kMostSpread = 0.5;
 // And the widest extent, in mean extents of a stick.
-constexpr double kMostWidth = 4;
+constexpr double kMostWidth = 6;
 
 HWY_INLINE double largest_lane(Lanes v) {
   alignas(64) double lanes[kLanes];
@@ -84,27 +85,31 @@ struct Funnel {
     if (!is_along) return false;
 
     // Where do the rays begin?
-    alignas(64) double w[StickBlock::kRays] = {};
+    Lanes first = all(kNowhere);
     for (int lane = 0; lane < block.padded_count(kLanes); lane += kLanes) {
       const Lanes o = hn::Load(Tag(), block.origin[major] + lane), d = hn::Load(Tag(), block.direction[major] + lane);
       const Lanes t = hn::Load(Tag(), block.t_min + lane);
-      hn::Store(hn::Mul(all(sign), hn::MulAdd(t, d, o)), Tag(), w + lane);
+      first = hn::Max(first, hn::Mul(all(-sign), hn::MulAdd(t, d, o)));
     }
     // Before the box around all sticks nothing matters, and segments may begin infinitely far away.
-    w_begin = std::max(least_of(w, block.padded_count(kLanes)), low_of(tree.box()) - 1);
+    w_begin = std::max(-largest_lane(first), low_of(tree.box()) - 1);
     for (int a = 0; a < 2; ++a) {
-      alignas(64) double at[StickBlock::kRays] = {}, slope[StickBlock::kRays] = {};
+      Lanes from_end = all(kNowhere), from_start = all(kNowhere), slopes_up = all(kNowhere),
+            slopes_down = all(kNowhere);
       for (int lane = 0; lane < block.padded_count(kLanes); lane += kLanes) {
         const Lanes along = hn::Mul(all(sign), hn::Load(Tag(), block.direction[major] + lane));
-        const Lanes of_axis = hn::Div(hn::Load(Tag(), block.direction[across[a]] + lane), along);
+        const Lanes slope = hn::Div(hn::Load(Tag(), block.direction[across[a]] + lane), along);
         const Lanes from = hn::Sub(all(w_begin), hn::Mul(all(sign), hn::Load(Tag(), block.origin[major] + lane)));
-        hn::Store(of_axis, Tag(), slope + lane);
-        hn::Store(hn::MulAdd(of_axis, from, hn::Load(Tag(), block.origin[across[a]] + lane)), Tag(), at + lane);
+        const Lanes at = hn::MulAdd(slope, from, hn::Load(Tag(), block.origin[across[a]] + lane));
+        from_end = hn::Max(from_end, at);
+        from_start = hn::Max(from_start, hn::Sub(all(0), at));
+        slopes_up = hn::Max(slopes_up, slope);
+        slopes_down = hn::Max(slopes_down, hn::Sub(all(0), slope));
       }
-      least[a] = least_of(at, block.padded_count(kLanes));
-      largest[a] = largest_of(at, block.padded_count(kLanes));
-      least_slope[a] = least_of(slope, block.padded_count(kLanes));
-      largest_slope[a] = largest_of(slope, block.padded_count(kLanes));
+      least[a] = -largest_lane(from_start);
+      largest[a] = largest_lane(from_end);
+      least_slope[a] = -largest_lane(slopes_down);
+      largest_slope[a] = largest_lane(slopes_up);
       if (largest_slope[a] - least_slope[a] > kMostSpread) return false;
     }
     find_end(block);
@@ -139,72 +144,136 @@ struct Funnel {
   }
 };
 
-// The rays that meet the stick in their segment, and their roots. Filters drop those that pass its drawn out axis or
-// the ball around it too far away, or meet that ball elsewhere.
-HWY_INLINE std::uint64_t rays_that_meet(const StickBlock& block, const Stick& stick, StickBlockRoots& roots) {
+// The same rays in binary32: where each enters the plane at which the funnel begins, and its direction with length 1. A
+// few steps drop the rays that are surely away from a stick.
+class RoughRays {
+ public:
+  HWY_INLINE void make(const StickBlock& block, const Funnel& funnel, double farthest) {
+    count_ = block.padded_count(kLanes);
+    LaneMask good = hn::Eq(all(0), all(0));
+    for (int lane = 0; lane < count_; lane += kLanes) {
+      const Lanes along = hn::Mul(all(funnel.sign), hn::Load(Tag(), block.direction[funnel.major] + lane));
+      const Lanes from = hn::Mul(all(funnel.sign), hn::Load(Tag(), block.origin[funnel.major] + lane));
+      const Lanes t = hn::Div(hn::Sub(all(funnel.w_begin), from), along);
+      const Lanes length = hn::Sqrt(hn::Load(Tag(), block.direction_squared + lane));
+      LaneMask fits = hn::Eq(all(0), all(0));
+      for (int axis = 0; axis < 3; ++axis) {
+        const Lanes d = hn::Load(Tag(), block.direction[axis] + lane);
+        const Lanes o = hn::MulAdd(t, d, hn::Load(Tag(), block.origin[axis] + lane)), unit = hn::Div(d, length);
+        fits = hn::And(fits, hn::And(hn::Le(hn::Abs(o), all(kMostOrigin)), hn::Le(hn::Abs(unit), all(2))));
+        put(o, origin_[axis] + lane);
+        put(unit, direction_[axis] + lane);
+      }
+      const Lanes t_min = hn::Load(Tag(), block.t_min + lane), t_end = hn::Load(Tag(), block.t_end + lane);
+      good = hn::And(good, hn::Or(fits, hn::Gt(t_min, t_end)));
+      put(hn::Mul(hn::Sub(t_min, t), length), begin_ + lane);
+      hn::Store(t, Tag(), t_ + lane);
+      hn::Store(length, Tag(), length_ + lane);
+    }
+    drops_some_ = every(good);
+    error_ = static_cast<float>(0x1p-15 + 0x1p-43 * farthest);
+    // What follows the last ray.
+    constexpr float kNever = -std::numeric_limits<float>::infinity();
+    std::fill(end_ + count_, end_ + (count_ + kMostLanes - 1) / kMostLanes * kMostLanes, kNever);
+    follow(block);
+  }
+  /// The ends of rays have changed.
+  HWY_INLINE void follow(const StickBlock& block) {
+    for (int lane = 0; lane < count_; lane += kLanes) {
+      const Lanes t_end = hn::Load(Tag(), block.t_end + lane);
+      put(hn::Mul(hn::Sub(t_end, hn::Load(Tag(), t_ + lane)), hn::Load(Tag(), length_ + lane)), end_ + lane);
+    }
+  }
+
+  /// Bit i: ray i may meet the stick in its segment.
+  HWY_INLINE std::uint64_t near(const Stick& stick) const {
+    if (!drops_some_) return ~std::uint64_t{0};
+    const Vec3d axis = stick.b - stick.a, middle = stick.a + 0.5 * axis;
+    const auto largest = static_cast<float>(std::max(stick.radius_a, stick.radius_b));
+    const double length = std::sqrt(bihive::dot(axis, axis));
+    const Vec3d unit = length > 0 ? (1 / length) * axis : Vec3d{};
+    const float reach = static_cast<float>(0.5 * length) + largest + error_;
+    const Floats mx = set(middle.x), my = set(middle.y), mz = set(middle.z);
+    const Floats ax = set(unit.x), ay = set(unit.y), az = set(unit.z);
+    // Coordinates are below 2 + kMostOrigin, so each is wrong by less than 2^-18, and a distance by less than error_.
+    const Floats most_squared = in_all(reach * reach * (1 + 0x1p-19F)), of_reach = in_all(reach);
+    const Floats most_side = in_all(largest), error = in_all(error_), one = in_all(1 + 0x1p-18F);
+    std::uint64_t near = 0;
+    for (int lane = 0; lane < count_; lane += kFloatLanes) {
+      const Floats dx = get(direction_[0] + lane), dy = get(direction_[1] + lane), dz = get(direction_[2] + lane);
+      const Floats x = hn::Sub(mx, get(origin_[0] + lane)), y = hn::Sub(my, get(origin_[1] + lane)),
+                   z = hn::Sub(mz, get(origin_[2] + lane));
+
+      // The ball around the stick: along the ray, and across.
+      const Floats along = dot(x, y, z, dx, dy, dz);
+      const Floats cx = hn::MulSub(y, dz, hn::Mul(z, dy)), cy = hn::MulSub(z, dx, hn::Mul(x, dz)),
+                   cz = hn::MulSub(x, dy, hn::Mul(y, dx));
+      FloatMask may = hn::Le(dot(cx, cy, cz, cx, cy, cz), most_squared);
+      may = hn::And(may, hn::Le(hn::Sub(along, of_reach), get(end_ + lane)));
+      may = hn::And(may, hn::Ge(hn::Add(along, of_reach), get(begin_ + lane)));
+
+      // The drawn out axis.
+      const Floats turn = dot(ax, ay, az, dx, dy, dz);
+      const Floats across = hn::Sqrt(hn::Max(hn::NegMulAdd(turn, turn, one), in_all(0)));
+      const Floats apart = hn::Abs(dot(ax, ay, az, cx, cy, cz));
+      may = hn::And(may, hn::Le(apart, hn::MulAdd(most_side, across, error)));
+      near |= std::uint64_t{mask_bits(may)} << lane;
+    }
+    return near;
+  }
+
+ private:
+  static constexpr double kMostOrigin = 32;
+
+  static HWY_INLINE void put(Lanes v, float* to) { hn::StoreU(hn::DemoteTo(FloatHalf(), v), FloatHalf(), to); }
+  static HWY_INLINE Floats get(const float* from) { return hn::Load(FloatTag(), from); }
+  static HWY_INLINE Floats set(double x) { return in_all(static_cast<float>(x)); }
+  static HWY_INLINE Floats dot(Floats x, Floats y, Floats z, Floats u, Floats v, Floats w) {
+    return hn::MulAdd(z, w, hn::MulAdd(y, v, hn::Mul(x, u)));
+  }
+
+  int count_ = 0;            // of columns that are written, whole vectors of binary64
+  bool drops_some_ = false;  // false: the numbers are too large
+  float error_ = 0;
+  alignas(64) float origin_[3][StickBlock::kRays];     // NOLINT: written before read
+  alignas(64) float direction_[3][StickBlock::kRays];  // NOLINT
+  alignas(64) float begin_[StickBlock::kRays], end_[StickBlock::kRays];
+  alignas(64) double t_[StickBlock::kRays], length_[StickBlock::kRays];
+};
+
+// The rays that meet the stick in their segment, and their roots.
+HWY_INLINE std::uint64_t rays_that_meet(const StickBlock& block, const RoughRays& rough, const Stick& stick,
+                                        StickBlockRoots& roots) {
+  const std::uint64_t may_meet = rough.near(stick);
+  if (may_meet == 0) return 0;
   const StickForLanes for_lanes(stick);
-  const Vec3d axis = stick.b - stick.a;
-  const double largest = std::max(stick.radius_a, stick.radius_b);
-  const double length = std::sqrt(dot(axis, axis));
-  const double around = 0.5 * length + largest;
-  // As in surely_misses(): rounding is less than 2^-46 of these lengths.
-  constexpr double kError = 0x1p-40;
-  const Lanes3 to_axis = all(axis), from_a = all(stick.a), half_axis = all(0.5 * axis);
-  const bool has_side = for_lanes.has_side();
-  roots.has_side = has_side;
+  roots.has_side = for_lanes.has_side();
   std::uint64_t near = 0;
   for (int lane = 0; lane < block.padded_count(kLanes); lane += kLanes) {
+    const std::uint64_t bits = may_meet >> lane & ((std::uint64_t{1} << kLanes) - 1);
+    if (bits == 0) continue;
     const Lanes t_min = hn::Load(Tag(), block.t_min + lane), t_end = hn::Load(Tag(), block.t_end + lane);
-    const LaneMask some = hn::Le(t_min, t_end);
-    if (none(some)) continue;
-    const Lanes3 o = {hn::Load(Tag(), block.origin[0] + lane), hn::Load(Tag(), block.origin[1] + lane),
-                      hn::Load(Tag(), block.origin[2] + lane)};
-    const Lanes3 d = {hn::Load(Tag(), block.direction[0] + lane), hn::Load(Tag(), block.direction[1] + lane),
-                      hn::Load(Tag(), block.direction[2] + lane)};
-    const Lanes dd = hn::Load(Tag(), block.direction_squared + lane);
-    const Lanes3 oc = subtract(from_a, o);
-
-    // The ball around the stick.
-    const Lanes3 to_middle = add(oc, half_axis);
-    const Lanes squared = dot(to_middle, to_middle);
-    const Lanes distance = hn::Sqrt(squared);
-    const Lanes reach = hn::MulAdd(all(kError), distance, all(around * (1 + kError)));
-    const Lanes inverse = hn::Div(all(1), dd);
-    const Lanes along = hn::Mul(dot(to_middle, d), inverse);
-    const Lanes apart = hn::Sub(hn::Mul(squared, all(1 - kError)), hn::Mul(hn::Mul(along, along), dd));
-    const Lanes depth = hn::Sub(hn::Mul(reach, reach), apart);
-    const Lanes half = hn::Sqrt(hn::Mul(hn::Max(depth, all(0)), inverse));
-    const Lanes margin = hn::Mul(all(kError), hn::Sqrt(hn::Mul(squared, inverse)));
-    LaneMask may = hn::And(some, hn::Ge(depth, all(0)));
-    may = hn::And(may, hn::Le(hn::Sub(hn::Sub(along, half), margin), t_end));
-    may = hn::And(may, hn::Ge(hn::Add(hn::Add(along, half), margin), t_min));
-    if (none(may)) continue;
-
-    // The drawn out axis.
-    const Lanes3 normal = {hn::Sub(hn::Mul(d.y, to_axis.z), hn::Mul(d.z, to_axis.y)),
-                           hn::Sub(hn::Mul(d.z, to_axis.x), hn::Mul(d.x, to_axis.z)),
-                           hn::Sub(hn::Mul(d.x, to_axis.y), hn::Mul(d.y, to_axis.x))};
-    const Lanes sizes = hn::Mul(hn::Sqrt(dd), all(kError * length));
-    const Lanes lengths = hn::MulAdd(all(2), distance, all(4 * length + largest));
-    const Lanes bound = hn::MulAdd(sizes, lengths, hn::Mul(all(largest), hn::Sqrt(dot(normal, normal))));
-    may = hn::And(may, hn::Le(hn::Abs(dot(oc, normal)), bound));
-    if (none(may)) continue;
+    LaneMask meets = hn::Le(t_min, t_end);
 
     // The roots decide, by vectors or one by one.
-    const auto in_segment = [&](Lanes t) HWY_ATTR { return hn::And(hn::Ge(t, t_min), hn::Le(t, t_end)); };
-    if (has_side) {
-      const RootLanes found = for_lanes.roots({o, d, dd});
-      may = hn::And(may, found.hits);
-      if (none(may)) continue;
+    if (roots.has_side && !none(meets)) {
+      const auto in_segment = [&](Lanes t) HWY_ATTR { return hn::And(hn::Ge(t, t_min), hn::Le(t, t_end)); };
+      const Lanes3 o = {hn::Load(Tag(), block.origin[0] + lane), hn::Load(Tag(), block.origin[1] + lane),
+                        hn::Load(Tag(), block.origin[2] + lane)};
+      const Lanes3 d = {hn::Load(Tag(), block.direction[0] + lane), hn::Load(Tag(), block.direction[1] + lane),
+                        hn::Load(Tag(), block.direction[2] + lane)};
+      const RootLanes found = for_lanes.roots({o, d, hn::Load(Tag(), block.direction_squared + lane)});
+      meets = hn::And(meets, found.hits);
+      if (none(meets)) continue;
       hn::Store(found.t_near, Tag(), roots.t_near + lane);
       hn::Store(found.t_far, Tag(), roots.t_far + lane);
       hn::Store(found.s_near, Tag(), roots.s_near + lane);
       hn::Store(found.s_far, Tag(), roots.s_far + lane);
-      may = hn::And(may, hn::Or(in_segment(found.t_near), in_segment(found.t_far)));
+      meets = hn::And(meets, hn::Or(in_segment(found.t_near), in_segment(found.t_far)));
     }
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(Tag(), may, bits);
-    near |= std::uint64_t{bits[0]} << lane;
+    std::uint8_t met[8] = {};
+    hn::StoreMaskBits(Tag(), meets, met);
+    near |= (std::uint64_t{met[0]} & bits) << lane;
   }
   return near;
 }
@@ -221,6 +290,9 @@ bool traverse_block_on_target(const StickTree& tree, StickBlock& block, double m
                          2 + stick_block::largest_of(block.origin[axis], block.padded_count(kLanes))});
   // As for one ray (bih/traversal.h), with room for the rounding of slopes.
   const double pad = 0x1p-24 + 0x1p-44 * farthest + more_pad;
+
+  stick_block::RoughRays rough;  // NOLINT: written before read
+  rough.make(block, funnel, farthest);
 
   WaitingChildren<double> waiting(tree.levels());
   std::int32_t at = 0;
@@ -267,10 +339,11 @@ bool traverse_block_on_target(const StickTree& tree, StickBlock& block, double m
       if (at >= 0) break;
       const std::int64_t index = ~at;
       const Stick stick = tests.stick(index);
-      const std::uint64_t near = stick_block::rays_that_meet(block, stick, roots);
+      const std::uint64_t near = stick_block::rays_that_meet(block, rough, stick, roots);
       if (near == 0) continue;
       tests.test(index, stick, near, roots);
       funnel.find_end(block);
+      rough.follow(block);
     }
   }
 }
