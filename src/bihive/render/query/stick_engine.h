@@ -129,7 +129,7 @@ class StickEngine final : public RayEngine {
     bool any;
     Hit best;
     StickRay ray{ScaledRay({}, 1)};
-    CutRay cut{ScaledRay({}, 1)};  // if there are cuts
+    const CutRay* cut = nullptr;  // not null if there are cuts
 
     bool test(std::int64_t stick) {
       const StickHit hit = engine.hit(ray, cut, stick);
@@ -142,7 +142,7 @@ class StickEngine final : public RayEngine {
     const StickEngine& engine;
     AllHits all;
     StickRay ray{ScaledRay({}, 1)};
-    CutRay cut{ScaledRay({}, 1)};
+    const CutRay* cut = nullptr;
 
     bool test(std::int64_t stick) const {
       const StickHit hit = engine.hit(ray, cut, stick);
@@ -151,14 +151,14 @@ class StickEngine final : public RayEngine {
     static double limit() { return AllHits::limit(); }
   };
 
-  StickHit hit(const StickRay& ray, const CutRay& cut, std::int64_t stick) const {
+  StickHit hit(const StickRay& ray, const CutRay* cut, std::int64_t stick) const {
     const Remainder left = cuts_ == nullptr ? Remainder::whole : cuts_->remainder_of_stick(stick);
     if (left == Remainder::whole) {
       const Stick whole = sticks_.stored(spheres_, stick);
       return by_vectors_ && surely_misses(ray.ray, whole) ? StickHit{} : stick_hit(ray, whole);
     }
     if (left == Remainder::nothing) return {};
-    const CutStickHit found = cuts_->stick_hit(cut, ray, stick);
+    const CutStickHit found = cuts_->stick_hit(*cut, ray, stick);
     return {found.hit.t, found.s};
   }
   std::int64_t id_of(std::int64_t stick, const StickHit& hit) const {
@@ -321,11 +321,18 @@ class StickEngine final : public RayEngine {
   void traverse_sticks(const Ray& ray, Answer& answer) const {
     if (!is_valid(ray) || numbers_.empty()) return;
     if (cuts_ != nullptr) {
-      cuts_->enter(ray, cuts_->cutting_sticks(), answer.cut);
-      answer.ray = cuts_->stick_ray_of(ray, answer.cut);
-    } else {
-      answer.ray = stick_ray(ray, spheres_, sticks_);
+      CutRay cut{ScaledRay({}, 1)};
+      cuts_->enter(ray, cuts_->cutting_sticks(), cut);
+      answer.ray = cuts_->stick_ray_of(ray, cut);
+      answer.cut = &cut;
+      traverse_images(answer);
+      return;
     }
+    answer.ray = stick_ray(ray, spheres_, sticks_);
+    traverse_images(answer);
+  }
+  template <class Answer>
+  void traverse_images(Answer& answer) const {
     if (!spheres_.has_images()) {
       AnswerOfImage<Answer> of_all{answer, &numbers_, 0};
       traverse_tree(answer.ray.ray, kPadOfSticks, of_all);
