@@ -126,9 +126,10 @@ void Pins::measure(const Viewer& viewer) {
   for (const NamedSphere& one : pins_) ids.push_back(*shown_id(scene, one.id));
   const std::optional<Lattice> lattice = Lattice::of(scene.spheres.cell());
   const double value = measured(scene.spheres, ids, lattice);
+  const bool of_images = lattice && value != measured(scene.spheres, ids, std::nullopt);
   if (!std::isfinite(value)) return;
   const std::string unit = ids.size() > 2 ? "°" : scene.length_unit.empty() ? "" : " " + scene.length_unit;
-  measure_ = fmt::format("{} {:.4g}{}{}", kKinds[ids.size()], value, unit, lattice ? ", of nearest images" : "");
+  measure_ = fmt::format("{} {:.4g}{}{}", kKinds[ids.size()], value, unit, of_images ? ", of nearest images" : "");
 }
 
 void Pins::draw_marks(const Viewer& viewer, ImVec2 picture_px, float per_unit) const {

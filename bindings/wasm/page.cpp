@@ -289,9 +289,13 @@ std::string Page::measured(const emscripten::val& ids) const {
       if (const std::optional<std::int64_t> sphere = stored_id(id)) of.push_back(*sphere);
     const std::optional<Lattice> lattice = Lattice::of(spheres.cell());
     ordered_json value;
+    bool nearest_images = false;
     if (of.size() >= 2 && of.size() <= 4)
-      if (const double measure = bihive::measured(spheres, of, lattice); std::isfinite(measure)) value = measure;
-    return text_of({{"value", value}, {"nearest_images", lattice.has_value()}});
+      if (const double measure = bihive::measured(spheres, of, lattice); std::isfinite(measure)) {
+        value = measure;
+        nearest_images = lattice.has_value() && measure != bihive::measured(spheres, of, std::nullopt);
+      }
+    return text_of({{"value", value}, {"nearest_images", nearest_images}});
   });
 }
 

@@ -80,6 +80,18 @@ TEST_F(HistoryOfAScene, what_the_user_has_not_changed_is_not_undone) {
   EXPECT_EQ(history.go(-1)->settings.camera.eye.x, 5);
 }
 
+TEST_F(HistoryOfAScene, says_which_rows_of_the_look_have_changed) {
+  state.look.rows = {{"water", "hide", ""}};
+  change(0);
+  EXPECT_EQ(history.next(-1), "what is hidden");
+  state.look.rows.push_back({"", "clip", "plane:0,0,1,5"});
+  change(10);
+  EXPECT_EQ(history.next(-1), "cut");
+  state.look.rows = {};
+  change(20);
+  EXPECT_EQ(history.next(-1), "looks of selections");
+}
+
 TEST_F(HistoryOfAScene, keeps_the_last_two_hundred_states) {
   for (int i = 1; i <= 300; ++i) {
     state.settings.max_prims = i;

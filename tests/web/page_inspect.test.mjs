@@ -166,7 +166,7 @@ test('measures follow the frames', async () => {
   await context.close();
 });
 
-test('a distance in a periodic cell is that of nearest images, as the program has it', async () => {
+test('a distance in a periodic cell is that of nearest images, as the program has it, and stays over a reload', async () => {
   const { page, context, complaints } = await open_page(kit.browser, kit.server.url, wide);
   await open_own(page, in_cell, '2 spheres');
   await and_settle(page, () => page.selectOption('#projection', 'orthographic'));
@@ -176,6 +176,13 @@ test('a distance in a periodic cell is that of nearest images, as the program ha
   }
   assert.match(await measure(page, 'Distance'), /^Distance 2( Å)?, of nearest images$/);
   assert.equal(printed(in_cell, '--distance', '0,1'), 2);
+
+  // A reload brings the pins back.
+  await page.waitForTimeout(1000); // the page writes after a rest
+  await page.reload();
+  await page.waitForSelector('#picture[data-settled=true]');
+  await pinned(page, 2);
+  assert.match(await measure(page, 'Distance'), /^Distance 2/);
   no_complaints(complaints);
   await context.close();
 });

@@ -30,6 +30,7 @@ export class Cut {
   private readonly handle = element('cut_handle');
   private box: Pick<Contents, 'low' | 'high'> | null = null;
   private open = false;
+  private chosen = { side: '', normal: '' }; // by the user: one that faces the eye may lie along an axis
 
   constructor(private readonly rows: LookRows, private readonly camera: () => Camera | null) {
     const option = (value: string, text: string) => Object.assign(document.createElement('option'), { value, textContent: text });
@@ -42,6 +43,7 @@ export class Cut {
   /** Another scene, whose box is not known yet. */
   begin(): void {
     this.box = null;
+    this.chosen = { side: '', normal: '' };
     this.show();
   }
 
@@ -59,7 +61,8 @@ export class Cut {
   show(): void {
     const plane = this.plane;
     const axis = plane && Object.keys(axes).find((name) => axes[name]!.join() === plane.normal.join());
-    this.side.value = plane ? (axis ?? 'view') : '';
+    const is_chosen = plane?.normal.join() === this.chosen.normal;
+    this.side.value = plane ? (is_chosen ? this.chosen.side : (axis ?? 'view')) : '';
     this.side.disabled = !this.box;
     this.depth.disabled = !this.box || !plane;
     const share = plane ? this.share_of(plane) : 0;
@@ -102,6 +105,7 @@ export class Cut {
     const towards = minus(camera.eye, camera.look_at);
     const normal = axes[this.side.value] ?? (towards.map((one) => +(one / Math.hypot(...towards)).toFixed(4)) as unknown as Vec3);
     const [low, high] = this.range(normal);
+    this.chosen = { side: this.side.value, normal: normal.join() };
     this.set({ normal, distance: (low + high) / 2 });
   }
 

@@ -58,7 +58,7 @@ async function mount_inputs(module: FigureModule, { files }: Recorded, inputs: N
 
 async function verify({ base, threads, figure, inputs }: FigureRequest): Promise<void> {
   const png = await read_png(figure.content);
-  if (png.record === '') throw new BadInput('holds no record of how it was drawn');
+  if (png.record === '') throw new BadInput('holds no record of how it was drawn. It is a picture: atoms and points are read from files such as PDB, XYZ or CSV');
   const module = await load_figure_module(base, threads);
   const check = new module.Figure();
   const record = value_of<Recorded>(check.open(figure.name, png.record));

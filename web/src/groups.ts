@@ -109,7 +109,7 @@ export class GroupLists {
   begin(): void {
     this.groups = [];
     this.in_list = this.in_legend = [];
-    this.list.replaceChildren();
+    this.list.replaceChildren(made('li', { className: 'help', textContent: words.entry.awaited }));
     this.legend.replaceChildren();
     this.legend.hidden = true;
   }

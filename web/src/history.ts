@@ -1,5 +1,5 @@
 // The states that a scene has been in, for undo and redo.
-import type { Look, Reading, Settings } from './protocol';
+import type { Look, LookRow, Reading, Settings } from './protocol';
 
 /** All that the user can change, but for the scene itself. */
 export interface Snapshot {
@@ -24,11 +24,18 @@ const same = (a: unknown, b: unknown) => JSON.stringify(a) === JSON.stringify(b)
 const differing = (a: object, b: object) =>
   Object.keys({ ...a, ...b }).filter((key) => key !== 'set' && !same((a as never)[key], (b as never)[key]));
 
+// "rows.clip" where no other action's rows differ.
+function rows_member(a: LookRow[], b: LookRow[]): string {
+  const actions = new Set([...a, ...b].map(({ action }) => action));
+  const differ = [...actions].filter((one) => !same(a.filter(({ action }) => action === one), b.filter(({ action }) => action === one)));
+  return differ.length === 1 ? `rows.${differ[0]}` : 'rows';
+}
+
 /** What differs between two states, by the names of its members: of the most telling kind alone, since another file's
  * reading changes the look, and another style changes settings. */
 export function changed_members(a: Snapshot, b: Snapshot): string[] {
   if (!same(a.reading, b.reading)) return ['reading'];
-  const looks = differing(a.look, b.look);
+  const looks = differing(a.look, b.look).map((member) => (member === 'rows' ? rows_member(a.look.rows, b.look.rows) : member));
   return looks.length > 0 ? looks : differing(a.settings, b.settings);
 }
 

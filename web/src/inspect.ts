@@ -88,6 +88,7 @@ export class Inspector {
   private readonly marks = document.getElementById('marks') as unknown as SVGSVGElement;
   private readonly asked = new Map<number, { why: 'name' | 'pin' | 'centre'; place: Place }>();
   private pins: Picked[] = [];
+  private recalled: number[] | null = null; // ids that are to be pinned again, once they are described
   private news = ''; // for those who hear the page, once the measure is known
   private unit = '';
   private timer = 0;
@@ -110,7 +111,15 @@ export class Inspector {
     this.unit = unit;
     this.has_frames = has_frames;
     this.hide_tip();
+    this.recalled = null;
     this.set_pins([]);
+  }
+
+  /** Pins these spheres of the new scene, as before a reload. */
+  recall(spheres: number[]): void {
+    if (spheres.length === 0) return;
+    this.recalled = spheres;
+    this.actions.describe(spheres);
   }
 
   /** Another frame of it, or another look: what is pinned has moved, or is hidden. */
@@ -120,6 +129,15 @@ export class Inspector {
   }
 
   described(spheres: (Picked | null)[], measure: Measure): void {
+    if (this.recalled) {
+      const known = spheres.filter((one) => one !== null);
+      const all = spheres.length === this.recalled.length && known.length === spheres.length;
+      this.recalled = null;
+      this.set_pins(known);
+      if (all) this.set_pins(known, this.words_of(measure));
+      else this.moved();
+      return;
+    }
     if (spheres.length !== this.pins.length) return; // others were pinned meanwhile
     const known = spheres.filter((one) => one !== null);
     if (!known.every(({ sphere }) => this.pins.some((pin) => pin.sphere === sphere))) return;

@@ -18,6 +18,7 @@ interface KeptState {
   start: string;
   source: Source;
   past: Past;
+  pins: number[]; // spheres by their ids
 }
 
 interface KeptFiles {
@@ -28,6 +29,7 @@ interface KeptFiles {
 export interface Kept {
   source: Source;
   past: Past;
+  pins: number[];
   own: OwnFiles | null;
 }
 
@@ -75,6 +77,8 @@ export class Keeper {
   private source: Source | null = null;
   private own: OwnFiles | null = null;
   private past: Past | null = null;
+  private pins: number[] = [];
+  private opened = false; // whether there is a database is known
   private forgotten = false; // by the user, until another scene is opened
   private timer = 0;
   private last: Promise<unknown> = Promise.resolve(); // the last work on the database
@@ -94,8 +98,10 @@ export class Keeper {
       this.tab = await name_of_tab(before);
       await this.drop_old(base);
       this.base = base;
+      this.opened = true;
       return before === null ? null : await this.read(before);
     } catch {
+      this.opened = true;
       return null; // A private window, or no room: the page works without it.
     }
   }
@@ -116,9 +122,18 @@ export class Keeper {
 
   keep(past: Past): void {
     this.past = past;
+    this.write_soon();
+    this.say();
+  }
+
+  keep_pins(spheres: number[]): void {
+    this.pins = spheres;
+    this.write_soon();
+  }
+
+  private write_soon(): void {
     clearTimeout(this.timer);
     this.timer = window.setTimeout(() => this.write(), after_ms);
-    this.say();
   }
 
   private get fits(): boolean {
@@ -133,7 +148,7 @@ export class Keeper {
     ]);
     if (!record || record.address !== location.href || record.start !== this.start) return null;
     if ('file' in record.source && !files) return null;
-    return { source: record.source, past: record.past, own: 'file' in record.source ? files!.own : null };
+    return { source: record.source, past: record.past, pins: record.pins ?? [], own: 'file' in record.source ? files!.own : null };
   }
 
   private async drop_old(base: IDBDatabase): Promise<void> {
@@ -159,7 +174,7 @@ export class Keeper {
   private write(): void {
     const { source, past, start, tab } = this;
     if (!source || !past || this.forgotten || !this.fits) return;
-    const record: KeptState = { tab, when: Date.now(), address: location.href, start, source, past };
+    const record: KeptState = { tab, when: Date.now(), address: location.href, start, source, past, pins: this.pins };
     this.work(async (base) => void (await done(base.transaction('states', 'readwrite').objectStore('states').put(record))));
   }
 
@@ -177,6 +192,7 @@ export class Keeper {
   }
 
   private say(): void {
+    if (!this.opened) return;
     const name = this.own?.file.name;
     element('forget').hidden = !this.base || this.forgotten;
     element('kept').textContent = !this.base

@@ -74,8 +74,10 @@ let measured: { name: string; lines: string[] } | null = null; // the table of f
 let framed = true; // the camera was not moved since it showed the whole scene, or was the scene's own
 // Loads by their ids: what holds once they are done. `past`: the scene's; 'same' after another reading of the shown one.
 const awaited = new Map<number, { own: OwnFiles | null; files: NamedBlob[]; framed: boolean; past: Past | 'same' | null; undone: -1 | 1 | null }>();
+let kept_pins: number[] = []; // of the scene that a reload brings back, until it is loaded
 const host = new Host();
 let shown_frame = 0;
+let titles_vary = false; // each frame of the file has a title of its own
 let scale = 1;
 let size = { width: 1, height: 1 };
 
@@ -109,6 +111,7 @@ const engine = new Engine(
       shown_files = now?.files ?? [];
       refused = null;
       framed = now?.framed ?? true;
+      titles_vary = answer.facts.frames > 1 && answer.facts.format === 'XYZ';
       show_facts(answer.facts);
       show_source(source);
       reading.show(source, kind_of(source), facts);
@@ -119,7 +122,9 @@ const engine = new Engine(
       look = answer.look;
       looks.show_facts(answer.facts);
       inspector.begin(answer.facts.length_unit, answer.facts.frames > 1);
+      inspector.recall(kept_pins.splice(0));
       groups.begin();
+      preview.begin();
       union.begin(answer.facts.length_unit);
       measured = null;
       looks.show(look, answer.counts, answer.coloured_by);
@@ -214,7 +219,10 @@ const engine = new Engine(
         union.outdated();
       }
       if (state.shown) shown_frame = state.frame;
-      if (state.shown && facts && state.title !== facts.title) show_facts({ ...facts, title: state.title });
+      if (state.shown && facts && state.title !== facts.title) {
+        titles_vary = true;
+        show_facts({ ...facts, title: state.title });
+      }
     },
     statistics: ({ json }) => show_statistics(json),
     picture_progress: ({ done }) => saving.progress(done),
@@ -329,7 +337,10 @@ const inspector = new Inspector({
   },
   dismiss: () => !ray_path.is_wanted() && cards.dismiss(),
   clicked: (x, y) => ray_path.ask(x, y),
-  pinned: (pins) => host.pinned(pins),
+  pinned: (pins) => {
+    host.pinned(pins);
+    keeper?.keep_pins(pins.map(({ sphere }) => sphere));
+  },
   select: (selection) => {
     cards.show('show');
     looks.begin_row(selection);
@@ -407,12 +418,12 @@ function show_facts(now: Facts): void {
   const file = now.name.replace(/.*\//, '');
   // The built-in ones have names for people in the list of samples.
   const built_in = 'built_in' in source && document.querySelector(`#built_in option[value="${source.built_in}"]`);
-  const name = (built_in && built_in.textContent) || now.title || file;
+  const name = (built_in && built_in.textContent) || (!titles_vary && now.title) || file;
   const counted = texts.scene[now.has_elements ? 'atoms' : 'spheres'](grouped(now.spheres), now.spheres === 1);
   const entry = now.entry_id === name ? '' : now.entry_id;
   element('badge_name').textContent = name;
   element('badge').title = name;
-  element('badge_more').textContent = [entry, counted, now.format].filter(Boolean).join(' · ');
+  element('badge_more').textContent = [titles_vary && now.title, entry, counted, now.format].filter(Boolean).join(' · ');
   document.title = [name, entry, 'bihive'].filter(Boolean).join(' · ');
   const spheres = texts.scene.spheres(grouped(now.spheres), now.spheres === 1);
   element('scene_title').textContent = now.title;
@@ -560,7 +571,8 @@ function restore(state: Snapshot, by: -1 | 1): void {
 }
 
 // What the tab showed before it was loaded again.
-function open_kept({ source: from, past, own }: Kept): Promise<void> {
+function open_kept({ source: from, past, pins, own }: Kept): Promise<void> {
+  kept_pins = pins;
   const state = past.states[past.at]!;
   const reading = state.reading ?? undefined;
   if (own) return open(wanted_files(own, reading), own.file.name, state, own, past);

@@ -28,6 +28,12 @@ export class Preview {
     this.follow();
   }
 
+  /** Another scene: the picture of the last one goes. */
+  begin(): void {
+    this.made_of = '';
+    this.image.hidden = true;
+  }
+
   /** Something may have changed. */
   follow(): void {
     clearTimeout(this.timer);

@@ -219,7 +219,7 @@ export interface RayPaths {
 /** Of two to four spheres: a distance in the scene's unit, or an angle in degrees. */
 export interface Measure {
   value: number | null; // null: of fewer, or not defined
-  nearest_images: boolean; // of a periodic cell
+  nearest_images: boolean; // a periodic cell has made it another one
 }
 
 /** Of a union of spheres, in the scene's unit (viewer/shown_measures.h). */

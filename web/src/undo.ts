@@ -89,7 +89,7 @@ export class Undo {
 
   private words(by: -1 | 1): string {
     const members = this.history.next(by) ?? [];
-    const names = members.slice(0, 2).map((member) => texts.members[member] ?? this.labels.get(member) ?? member.replaceAll('_', ' '));
+    const names = members.slice(0, 2).map((member) => texts.members[member] ?? texts.members[member.split('.')[0]!] ?? this.labels.get(member) ?? member.replaceAll('_', ' '));
     return names.join(', ') + (members.length > 2 ? texts.more : '');
   }
 

@@ -22,6 +22,7 @@ export const words = {
     material: 'Material',
     own_material: 'the style’s',
     reset: 'As it was',
+    awaited: 'What is here follows after the first picture.',
   },
   more_entries: (count: number) => `${count} more…`,
   cut: {
@@ -144,6 +145,7 @@ export const words = {
     members: {
       reading: 'how the file is read', replicate: 'copies', focus_on: 'focus', element_colours: 'colours of elements', colour_by: 'colours',
       nan_colour: 'colour of unknown numbers', crease: 'lines between', floor: 'floor', floor_up: 'floor', rows: 'looks of selections',
+      'rows.clip': 'cut', 'rows.hide': 'what is hidden', 'rows.colour': 'colours of selections',
     } as Record<string, string>,
   },
   heights: { whole: 'Whole window', half: 'Half the window' },

@@ -10,6 +10,7 @@ import type {
 import { UserFiles } from './user_files';
 
 const frame_budget_ms = 25;
+const most_to_pass = 100_000; // spheres, which takes a few milliseconds
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
 
 let module: Module;
@@ -31,6 +32,7 @@ let statistics_wanted = false;
 let contents_wanted = false;
 let legend_wanted = false;
 let scenes = 0; // loaded
+let spheres = 0; // of the scene
 let player_words = ''; // the last state of the player that was sent, as JSON
 let frame_pending = false;
 let gl_description = '';
@@ -243,7 +245,7 @@ async function next_frame(): Promise<void> {
       send({ type: 'frame', report, serial, settings: now, width_px: size_px.width, height_px: size_px.height });
     const { playing, shown } = JSON.parse(player_words) as PlayerState;
     if (!report.settled || playing || !shown) ask_for_frame();
-    else tell_contents();
+    if (report.settled || (report.drawn && spheres <= most_to_pass)) tell_contents();
   });
   if (statistics_wanted) {
     statistics_wanted = false;
@@ -290,7 +292,7 @@ function choose(wanted_settings: Changes, wanted: Partial<Look> | null) {
   return { notes, counts: looked?.counts ?? null, coloured_by: looked?.coloured_by ?? null };
 }
 
-// Passes over all spheres, so they wait until the picture is at rest.
+// Passes over all spheres. Those of large scenes wait until the picture is at rest.
 function tell_contents(): void {
   if (!contents_wanted && !legend_wanted) return;
   const contents = contents_wanted ? value_of<Contents>(page.contents()) : null;
@@ -318,6 +320,7 @@ async function load(request: Request & { type: 'load' }): Promise<void> {
   moves = [];
   wanted_look = null;
   has_scene = true;
+  spheres = loaded.facts.spheres;
   ++scenes;
   const { id, source } = request;
   const ground = request.ground !== '' && loaded.facts.is_file_of_spheres ? { background: request.ground } : null;

@@ -55,8 +55,8 @@ Result<std::vector<StructureRow>> swept_rows(const SweepOptions& options) {
 }
 
 // Trees that are timed in turn, so that what slows a machine down for a while slows all of them down.
-constexpr std::size_t kTurns = 7;
-constexpr double kTurnMs = 10;                              // of a kind
+constexpr std::size_t kTurns = 15;
+constexpr double kTurnMs = 4;                               // of a kind
 constexpr std::int64_t kMostBytes = std::int64_t{2} << 30;  // of the trees that are there at a time
 
 // A point whose tree is there.
@@ -103,28 +103,44 @@ Result<BuiltPoint> build_point(const StructureRow& row, const StructureParameter
   return built;
 }
 
-void time_round(BuiltPoint& built, int threads, const std::vector<AnsweredSet>& sets) {
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    const QuerySet& set = built.set(sets, k);
-    if (set.size() == 0) continue;
-    const double ms = time_of_answers(*built.structure, set, threads, {kTurnMs, 0, 1});
-    built.times[k].push_back(ms * 1e6 / static_cast<double>(set.size()));
-  }
+// Kind after kind, each of all points in turn.
+void time_turn(std::vector<BuiltPoint>& points, int threads, const std::vector<AnsweredSet>& sets) {
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    for (BuiltPoint& one : points) {
+      const QuerySet& set = one.set(sets, k);
+      if (set.size() == 0) continue;
+      const double ms = time_of_answers(*one.structure, set, threads, {kTurnMs, 0, 1});
+      one.times[k].push_back(ms * 1e6 / static_cast<double>(set.size()));
+    }
 }
 
-// The point, after all rounds.
-SweepPoint finished(BuiltPoint& built) {
-  SweepPoint& point = built.point;
-  double kinds = 0;
-  for (std::size_t k = 0; k < built.times.size(); ++k) {
-    if (built.times[k].empty()) continue;
-    point.kinds[k].ns = median(built.times[k]);
-    point.mean.work += point.kinds[k].work;
-    point.mean.ns += point.kinds[k].ns;
-    ++kinds;
+// The times of all points, after the last turn. A processor's clock changes for seconds at a time, so each turn counts
+// by its ratio to the points' mean of that turn.
+void take_times(std::vector<BuiltPoint>& points, std::size_t kinds) {
+  for (std::size_t k = 0; k < kinds; ++k) {
+    if (points.empty() || points.front().times[k].empty()) continue;
+    std::vector<double> means;
+    for (std::size_t turn = 0; turn < kTurns; ++turn) {
+      double logarithms = 0;
+      for (const BuiltPoint& one : points) logarithms += std::log(one.times[k][turn]);
+      means.push_back(std::exp(logarithms / static_cast<double>(points.size())));
+    }
+    for (BuiltPoint& one : points) {
+      std::vector<double> ratios;
+      for (std::size_t turn = 0; turn < kTurns; ++turn) ratios.push_back(one.times[k][turn] / means[turn]);
+      one.point.kinds[k].ns = median(means) * median(ratios);
+    }
   }
-  point.mean.work /= kinds, point.mean.ns /= kinds;
-  return std::move(point);
+  for (BuiltPoint& one : points) {
+    double timed = 0;
+    for (std::size_t k = 0; k < kinds; ++k) {
+      if (one.times[k].empty()) continue;
+      one.point.mean.work += one.point.kinds[k].work;
+      one.point.mean.ns += one.point.kinds[k].ns;
+      ++timed;
+    }
+    one.point.mean.work /= timed, one.point.mean.ns /= timed;
+  }
 }
 
 const SweepPoint& least(const std::vector<SweepPoint>& points, double SweepCost::*cost) {
@@ -200,12 +216,12 @@ Result<Sweep> sweep_parameters(const Scene& scene, const SweepOptions& options) 
     std::vector<BuiltPoint> built;
     std::int64_t bytes = 0;
     const auto time_in_turn = [&] {
-      for (std::size_t round = 0; round < kTurns; ++round)
-        for (BuiltPoint& one : built) {
-          time_round(one, sweep.threads, *sets);
-          report(1);
-        }
-      for (BuiltPoint& one : built) swept.points.push_back(finished(one));
+      for (std::size_t turn = 0; turn < kTurns; ++turn) {
+        time_turn(built, sweep.threads, *sets);
+        report(built.size());
+      }
+      take_times(built, sets->size());
+      for (BuiltPoint& one : built) swept.points.push_back(std::move(one.point));
       built.clear();
       bytes = 0;
     };

@@ -29,7 +29,9 @@ struct Built {
   TuneCandidate candidate;
   StructurePointer structure;
   std::vector<std::vector<Work>> works;  // of each kind
-  std::vector<double> times;             // of rounds, in nanoseconds of a query
+  std::vector<std::vector<double>> times;  // of each kind: rounds, in nanoseconds of a query
+
+  std::int64_t rounds() const { return times.empty() ? 0 : std::ssize(times.front()); }
 };
 
 class Tuner {
@@ -169,14 +171,28 @@ class Tuner {
     std::stable_sort(built_.begin(), built_.end(), [&](const Built& a, const Built& b) { return rank(a) < rank(b); });
   }
 
-  // A round of one candidate: the mean time of a query over the kinds.
-  double round_of(const Built& one) const {
+  // A round: kind after kind, each of all candidates in turn.
+  void time_round(const std::vector<Built*>& candidates) const {
+    for (Built* one : candidates) one->times.resize(sets_.size());
+    for (std::size_t k = 0; k < sets_.size(); ++k)
+      for (Built* one : candidates) {
+        const auto queries = static_cast<double>(sets_[k].set.size());
+        const TimingEffort effort{kRoundMs / static_cast<double>(sets_.size()), 0, 1};
+        one->times[k].push_back(
+            queries > 0 ? time_of_answers(*one->structure, sets_[k].set, tuning_.threads, effort) * 1e6 / queries : 0);
+      }
+  }
+
+  // The mean over the kinds. A processor's clock changes for seconds at a time, so each round counts by its ratio to
+  // that of the structure's own choice, which was timed beside it.
+  double time_beside(const Built& one, const Built& own) const {
     double ns = 0, kinds = 0;
-    for (const AnsweredSet& set : sets_) {
-      if (set.set.size() == 0) continue;
-      const double ms = time_of_answers(*one.structure, set.set, tuning_.threads,
-                                        {kRoundMs / static_cast<double>(sets_.size()), 0, 1});
-      ns += ms * 1e6 / static_cast<double>(set.set.size());
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      if (sets_[k].set.size() == 0) continue;
+      std::vector<double> ratios;
+      for (std::size_t round = 0; round < one.times[k].size(); ++round)
+        ratios.push_back(one.times[k][round] / own.times[k][round]);
+      ns += median(own.times[k]) * median(ratios);
       ++kinds;
     }
     return ns / kinds;
@@ -203,14 +219,16 @@ class Tuner {
       count = half(count);
     }
     for (const std::int64_t rounds : kRounds) {
-      if (!own->times.empty()) {
+      if (own->rounds() > 0) {
+        for (Built* one : racing) one->candidate.ns = time_beside(*one, *own);
         std::stable_sort(racing.begin(), racing.end(),
-                         [](const Built* a, const Built* b) { return median(a->times) < median(b->times); });
+                         [](const Built* a, const Built* b) { return a->candidate.ns < b->candidate.ns; });
         racing.resize(half(racing.size()));
       }
-      for (std::int64_t round = 0; round < rounds && (time_left() || own->times.empty()); ++round) {
-        own->times.push_back(round_of(*own));
-        for (Built* one : racing) one->times.push_back(round_of(*one));
+      std::vector<Built*> timed{own};
+      timed.insert(timed.end(), racing.begin(), racing.end());
+      for (std::int64_t round = 0; round < rounds && (time_left() || own->rounds() == 0); ++round) {
+        time_round(timed);
         done += static_cast<double>(racing.size() + 1);
         report(kShareOfBuilds + (1 - kShareOfBuilds) * done / all);
       }
@@ -218,8 +236,8 @@ class Tuner {
     }
     if (!work_.cancelled()) report(1);
     for (Built& one : built_) {
-      one.candidate.rounds = std::ssize(one.times);
-      if (!one.times.empty()) one.candidate.ns = median(one.times);
+      one.candidate.rounds = one.rounds();
+      if (one.rounds() > 0) one.candidate.ns = time_beside(one, *own);
       tuning_.candidates.push_back(one.candidate);
     }
     std::stable_sort(tuning_.candidates.begin(), tuning_.candidates.end(),

@@ -29,7 +29,7 @@ struct TuneCandidate {
   std::int64_t bytes = 0, depth = 0;
   double work = 0;        ///< mean of Work::cost() over queries and kinds
   double counted_ns = 0;  ///< of a query, by the counted steps and the fitted costs, of kinds with a fit; NaN: none has
-  double ns = 0;          ///< median of the rounds; NaN: it was not timed
+  double ns = 0;          ///< by the medians of the rounds; NaN: it was not timed
   std::int64_t rounds = 0;
 
   bool is_own() const { return parameters == StructureParameters{}; }

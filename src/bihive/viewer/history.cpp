@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "bihive/settings/parameter.h"
@@ -19,7 +20,7 @@ constexpr double kOneChangeMs = 1000;
 constexpr double kLongAgo = -std::numeric_limits<double>::infinity();
 
 // Members whose ids say little.
-constexpr std::array<std::pair<const char*, const char*>, 8> kTellingNames{{
+constexpr std::array<std::pair<const char*, const char*>, 11> kTellingNames{{
     {"reading", "how the file is read"},
     {"replicate", "copies"},
     {"focus_on", "focus"},
@@ -28,11 +29,16 @@ constexpr std::array<std::pair<const char*, const char*>, 8> kTellingNames{{
     {"nan_colour", "colour of unknown numbers"},
     {"crease", "lines between"},
     {"rows", "looks of selections"},
+    {"rows.clip", "cut"},
+    {"rows.hide", "what is hidden"},
+    {"rows.colour", "colours of selections"},
 }};
 
-std::string name_of_member(const std::string& member) {
-  for (const auto& [id, name] : kTellingNames)
-    if (member == id) return name;
+std::string name_of_member(const std::string& whole) {
+  const std::string member = whole.substr(0, whole.find('.'));
+  for (const std::string& wanted : {whole, member})
+    for (const auto& [id, name] : kTellingNames)
+      if (wanted == id) return name;
   const Parameter* parameter = parameter_named(member);
   if (parameter != nullptr && !parameter->long_label.empty()) return std::string(parameter->long_label);
   if (parameter != nullptr && !parameter->label.empty()) return std::string(parameter->label);
@@ -51,6 +57,21 @@ std::vector<std::string> differing(const std::string& a, const std::string& b) {
   return members;
 }
 
+// "rows.clip" where no other action's rows differ.
+std::string rows_member(const std::vector<LookRow>& a, const std::vector<LookRow>& b) {
+  std::set<std::string> actions, differ;
+  for (const std::vector<LookRow>* rows : {&a, &b})
+    for (const LookRow& row : *rows) actions.insert(row.action);
+  for (const std::string& action : actions) {
+    const auto of_action = [&](std::vector<LookRow> rows) {
+      std::erase_if(rows, [&](const LookRow& row) { return row.action != action; });
+      return rows;
+    };
+    if (!(of_action(a) == of_action(b))) differ.insert(action);
+  }
+  return differ.size() == 1 ? "rows." + *differ.begin() : "rows";
+}
+
 }  // namespace
 
 History::Entry History::entry_of(const ShownState& state) {
@@ -61,6 +82,8 @@ History::Entry History::entry_of(const ShownState& state) {
 std::vector<std::string> History::changed_members(const Entry& a, const Entry& b) {
   if (a.reading != b.reading) return {"reading"};
   std::vector<std::string> looks = differing(a.look, b.look);
+  for (std::string& member : looks)
+    if (member == "rows") member = rows_member(a.state.look.rows, b.state.look.rows);
   return looks.empty() ? differing(a.settings, b.settings) : looks;
 }
 

@@ -81,7 +81,7 @@ const catalogue: Catalogue = {
     'Open a file…': 'Datei öffnen…',
     'Molecules, simulations and point sets': 'Moleküle, Simulationen und Punktmengen',
     ', packed or not; with a trajectory (DCD, XTC, TRR) choose both. A PNG that bihive drew is compared with the same picture drawn again. Drop them anywhere. They stay on this device.':
-      ', gepackt oder nicht; bei einer Trajektorie (DCD, XTC, TRR) wählen Sie beide. Ein PNG von bihive wird mit demselben Bild verglichen, das neu gezeichnet wird. Legen Sie sie irgendwo ab. Sie bleiben auf diesem Gerät.',
+      ', gepackt oder nicht; bei einer Trajektorie (DCD, XTC, TRR) wählen Sie beide. Ein PNG von bihive wird mit demselben Bild verglichen, das neu gezeichnet wird. Oder ziehen Sie sie irgendwo auf diese Seite. Sie bleiben auf diesem Gerät.',
     'Built-in': 'Eingebaut',
     'a file': 'eine Datei',
     'Spheres': 'Kugeln',
@@ -208,7 +208,7 @@ const catalogue: Catalogue = {
     light_labels: { studio: 'Studio: Haupt-, Füll- und Randlicht', cloudy: 'bewölkter Himmel', headlight: 'Stirnlampe', thesis: 'ein Punkt, wie in der Arbeit' },
     groups: { kind: 'Arten', ligand: 'Liganden', chain: 'Ketten', element: 'Elemente', type: 'Typen' },
     entry: {
-      shown: (name) => `${name} zeigen`, only: 'Nur das', colour: 'Farbe', opacity: 'Deckkraft', material: 'Material', own_material: 'wie der Stil', reset: 'Wie zuvor',
+      shown: (name) => `${name} zeigen`, only: 'Nur das', colour: 'Farbe', opacity: 'Deckkraft', material: 'Material', own_material: 'wie der Stil', reset: 'Wie zuvor', awaited: 'Was hier ist, folgt nach dem ersten Bild.',
     },
     more_entries: (count) => `${count} weitere…`,
     cut: { off: 'nichts', sides: { view: 'zu mir', x: 'entlang x', y: 'entlang y', z: 'entlang z' } },
@@ -324,6 +324,7 @@ const catalogue: Catalogue = {
       members: {
         reading: 'wie die Datei gelesen wird', replicate: 'Kopien', focus_on: 'Schärfe', element_colours: 'Farben der Elemente', colour_by: 'Farben',
         nan_colour: 'Farbe unbekannter Zahlen', crease: 'Linien zwischen', floor: 'Boden', floor_up: 'Boden', rows: 'Aussehen von Auswahlen',
+        'rows.clip': 'Schnitt', 'rows.hide': 'was verborgen ist', 'rows.colour': 'Farben von Auswahlen',
       },
     },
     heights: { whole: 'Ganzes Fenster', half: 'Halbes Fenster' },

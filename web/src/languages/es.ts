@@ -208,7 +208,7 @@ const catalogue: Catalogue = {
     light_labels: { studio: 'estudio: principal, relleno, contraluz', cloudy: 'cielo nublado', headlight: 'luz frontal', thesis: 'un punto, como en la tesis' },
     groups: { kind: 'Clases', ligand: 'Ligandos', chain: 'Cadenas', element: 'Elementos', type: 'Tipos' },
     entry: {
-      shown: (name) => `Mostrar ${name}`, only: 'Solo esto', colour: 'Color', opacity: 'Opacidad', material: 'Material', own_material: 'el del estilo', reset: 'Como estaba',
+      shown: (name) => `Mostrar ${name}`, only: 'Solo esto', colour: 'Color', opacity: 'Opacidad', material: 'Material', own_material: 'el del estilo', reset: 'Como estaba', awaited: 'La lista llega tras la primera imagen.',
     },
     more_entries: (count) => `${count} más…`,
     cut: { off: 'nada', sides: { view: 'hacia mí', x: 'a lo largo de x', y: 'a lo largo de y', z: 'a lo largo de z' } },
@@ -324,6 +324,7 @@ const catalogue: Catalogue = {
       members: {
         reading: 'cómo se lee el archivo', replicate: 'copias', focus_on: 'enfoque', element_colours: 'colores de los elementos', colour_by: 'colores',
         nan_colour: 'color de los números desconocidos', crease: 'líneas entre', floor: 'suelo', floor_up: 'suelo', rows: 'aspecto de las selecciones',
+        'rows.clip': 'corte', 'rows.hide': 'lo que está oculto', 'rows.colour': 'colores de las selecciones',
       },
     },
     heights: { whole: 'Toda la ventana', half: 'Media ventana' },

@@ -208,7 +208,7 @@ const catalogue: Catalogue = {
     light_labels: { studio: 'estúdio: principal, preenchimento, contraluz', cloudy: 'céu nublado', headlight: 'luz frontal', thesis: 'um ponto, como na tese' },
     groups: { kind: 'Tipos de molécula', ligand: 'Ligantes', chain: 'Cadeias', element: 'Elementos', type: 'Tipos' },
     entry: {
-      shown: (name) => `Mostrar ${name}`, only: 'Só isto', colour: 'Cor', opacity: 'Opacidade', material: 'Material', own_material: 'o do estilo', reset: 'Como estava',
+      shown: (name) => `Mostrar ${name}`, only: 'Só isto', colour: 'Cor', opacity: 'Opacidade', material: 'Material', own_material: 'o do estilo', reset: 'Como estava', awaited: 'A lista vem depois da primeira imagem.',
     },
     more_entries: (count) => `mais ${count}…`,
     cut: { off: 'nada', sides: { view: 'para mim', x: 'ao longo de x', y: 'ao longo de y', z: 'ao longo de z' } },
@@ -324,6 +324,7 @@ const catalogue: Catalogue = {
       members: {
         reading: 'como o arquivo é lido', replicate: 'cópias', focus_on: 'foco', element_colours: 'cores dos elementos', colour_by: 'cores',
         nan_colour: 'cor de números desconhecidos', crease: 'linhas entre', floor: 'chão', floor_up: 'chão', rows: 'aparência das seleções',
+        'rows.clip': 'corte', 'rows.hide': 'o que está oculto', 'rows.colour': 'cores das seleções',
       },
     },
     heights: { whole: 'Janela inteira', half: 'Meia janela' },

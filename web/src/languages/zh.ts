@@ -208,7 +208,7 @@ const catalogue: Catalogue = {
     light_labels: { studio: '影棚：主光、补光、轮廓光', cloudy: '阴天', headlight: '头灯', thesis: '一个点，同论文' },
     groups: { kind: '种类', ligand: '配体', chain: '链', element: '元素', type: '类型' },
     entry: {
-      shown: (name) => `显示 ${name}`, only: '仅此', colour: '颜色', opacity: '不透明度', material: '材质', own_material: '按样式', reset: '恢复原样',
+      shown: (name) => `显示 ${name}`, only: '仅此', colour: '颜色', opacity: '不透明度', material: '材质', own_material: '按样式', reset: '恢复原样', awaited: '列表将在第一幅图像之后显示。',
     },
     more_entries: (count) => `还有 ${count} 项…`,
     cut: { off: '无', sides: { view: '朝向我', x: '沿 x', y: '沿 y', z: '沿 z' } },
@@ -312,6 +312,7 @@ const catalogue: Catalogue = {
       members: {
         reading: '文件的读取方式', replicate: '副本', focus_on: '对焦', element_colours: '元素颜色', colour_by: '颜色',
         nan_colour: '未知数值的颜色', crease: '之间的线条', floor: '地面', floor_up: '地面', rows: '选择的外观',
+        'rows.clip': '切割', 'rows.hide': '隐藏的内容', 'rows.colour': '选择的颜色',
       },
     },
     heights: { whole: '整个窗口', half: '半个窗口' },

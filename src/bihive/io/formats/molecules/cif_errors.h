@@ -12,7 +12,7 @@
 namespace bihive {
 
 /// The text breaks the rules of CIF. In place of pegtl::parse_error, which writes its position by streams, and these
-/// bring every locale into the page's module (PLACEHOLDER).
+/// bring every locale into the page's module (20 kB of its download).
 struct CifFault : std::runtime_error {
   CifFault(const std::string& message, const tao::pegtl::position& at)
       : std::runtime_error(message),
