@@ -61,6 +61,11 @@ export class Film {
   }
 
   // The focus moves to the button that replaces the other.
+  /** A film is being drawn. */
+  get is_running(): boolean {
+    return !this.cancel.hidden;
+  }
+
   private set_running(running: boolean): void {
     const had_focus = [this.start, this.cancel].find((button) => button === document.activeElement);
     this.cancel.hidden = !running;

@@ -795,6 +795,10 @@ async function start(): Promise<void> {
   if (has_host) return;
   listen_for_samples();
 
+  // The browser asks whether to leave.
+  addEventListener('beforeunload', (event) => {
+    if (saving.is_running || film.is_running) event.preventDefault();
+  });
   addEventListener('hashchange', () => {
     if (has_state(location.hash)) void open_state('');
   });
