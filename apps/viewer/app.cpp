@@ -454,6 +454,7 @@ Status App::run() {
       glfwPollEvents();
     else
       glfwWaitEventsTimeout(wait_s());
+    turn();
     if (search_ && search_->finished()) take_search();
     if (search_ && std::exchange(search_shown_, search_->done()) != search_->done()) wake();
     if (rests_since_ms_ && now_ms() - *rests_since_ms_ >= kRestMs) {

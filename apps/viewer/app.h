@@ -52,6 +52,7 @@ class App {
   void on_cursor(double x, double y);
   void on_wheel(double dy);
   bool over_picture() const;
+  void turn();
   void on_drop(std::vector<std::string> paths);
   void wake() { frames_to_draw_ = 3; }
   /// The user has done something, of which a state of the next frames may come.
@@ -148,6 +149,7 @@ class App {
   enum class Drag { none, orbit, pan };
   Drag drag_ = Drag::none;
   double x_ = 0, y_ = 0;            // position of the pointer
+  double turned_x_ = 0, turned_y_ = 0;  // pixels that the pointer has turned the scene by, since the last turn()
   double down_x_ = 0, down_y_ = 0;  // position at which a button went down
   bool may_be_click_ = false;       // it has not moved since
   double last_click_ms_ = -1e9;

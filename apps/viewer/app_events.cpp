@@ -84,6 +84,7 @@ bool App::types_path() const {
 }
 
 void App::on_key(int key, int action, int mods) {
+  turn();
   if (action == GLFW_RELEASE) return;
   welcomes_ = false;
   if (key == GLFW_KEY_F1) {
@@ -216,6 +217,7 @@ bool App::over_picture() const {
 }
 
 void App::on_button(int button, int action, int mods) {
+  turn();
   welcomes_ = welcomes_ && !over_picture();
   if (action == GLFW_RELEASE) {
     if (may_be_click_ && drag_ == Drag::orbit) on_click();
@@ -274,12 +276,19 @@ void App::on_cursor(double x, double y) {
   if (drag_ == Drag::none && over_picture() && request_.screenshot.empty()) rests_since_ms_ = 1000 * glfwGetTime();
   if (std::hypot(x - down_x_, y - down_y_) > kMostClick) may_be_click_ = false;
   if (drag_ != Drag::none) framed_ = false;
-  if (drag_ == Drag::orbit) viewer_.orbit(dx, dy);
+  if (drag_ == Drag::orbit) turned_x_ += dx, turned_y_ += dy;
   if (drag_ == Drag::pan) viewer_.pan(dx, dy);
+}
+
+// A turn takes a pass over the spheres while all of them stay in view, and a pointer may move many times a frame.
+void App::turn() {
+  const double dx = std::exchange(turned_x_, 0), dy = std::exchange(turned_y_, 0);
+  if (dx != 0 || dy != 0) viewer_.orbit(dx, dy);
 }
 
 void App::on_wheel(double dy) {
   tip_.reset();
+  turn();
   if (!over_picture()) return;
   const double scale = window_->pixels_per_unit();
   framed_ = false;

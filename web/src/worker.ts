@@ -10,6 +10,7 @@ import type {
 import { UserFiles } from './user_files';
 
 const frame_budget_ms = 25;
+const most_waited_ms = 10; // a frame that takes longer is followed by the next one at once
 const most_to_pass = 100_000; // spheres, which takes a few milliseconds
 const picture_lost = 'The browser took the graphics processor away before the picture was complete';
 
@@ -35,6 +36,8 @@ let scenes = 0; // loaded
 let spheres = 0; // of the scene
 let player_words = ''; // the last state of the player that was sent, as JSON
 let frame_pending = false;
+let frame_ms = 0; // that the last frame took
+const soon = new MessageChannel();
 let gl_description = '';
 let gpu_again = false; // the engine of the settings when the context was lost
 let saving: PictureRun | FilmRun | null = null;
@@ -115,9 +118,20 @@ function merged(before: Changes, next: Changes): Changes {
 function ask_for_frame(): void {
   if (frame_pending || !has_scene || thesis || saving) return;
   frame_pending = true;
+  // Waiting for the display after each frame would cost up to one of its periods. The browser shows the last frame that is
+  // there, and messages that came meanwhile are read first.
+  if (frame_ms > most_waited_ms) soon.port2.postMessage(null);
   // Not every browser has the display's clock in workers.
-  if (typeof requestAnimationFrame === 'function') requestAnimationFrame(() => void next_frame());
+  else if (typeof requestAnimationFrame === 'function') requestAnimationFrame(() => void next_frame());
   else setTimeout(() => void next_frame(), 8);
+}
+
+// One step of a hand that went on meanwhile: each takes a pass over the spheres while all of them stay in view.
+function add_move(next: Move): void {
+  const last = moves.at(-1);
+  if (last && (last.kind === 'orbit' || last.kind === 'pan') && next.kind === last.kind)
+    moves[moves.length - 1] = { ...last, dx: last.dx + next.dx, dy: last.dy + next.dy };
+  else moves.push(next);
 }
 
 function apply_moves(): void {
@@ -227,6 +241,9 @@ function report_or_loss(now: Settings): FrameReport | null {
   }
 }
 
+soon.port1.addEventListener('message', () => void next_frame());
+soon.port1.start();
+
 async function next_frame(): Promise<void> {
   frame_pending = false;
   if (thesis || saving) return;
@@ -237,6 +254,7 @@ async function next_frame(): Promise<void> {
     if (on_lost_gpu(now)) return;
     const report = report_or_loss(now);
     if (!report) return;
+    frame_ms = now.engine === 'cpu' ? report.frame_ms : 0;
     if (report.drawn) {
       if (now.engine === 'gpu') show_gpu_image();
       else show_cpu_image();
@@ -598,7 +616,7 @@ addEventListener('message', async (event: MessageEvent<Request>) => {
       return ask_for_frame();
     case 'move':
       serial = request.serial;
-      moves.push(request.move);
+      add_move(request.move);
       return ask_for_frame();
     case 'play':
       play(request.action);
