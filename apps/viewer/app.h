@@ -148,10 +148,10 @@ class App {
 
   enum class Drag { none, orbit, pan };
   Drag drag_ = Drag::none;
-  double x_ = 0, y_ = 0;            // position of the pointer
+  double x_ = 0, y_ = 0;                // position of the pointer
   double turned_x_ = 0, turned_y_ = 0;  // pixels that the pointer has turned the scene by, since the last turn()
-  double down_x_ = 0, down_y_ = 0;  // position at which a button went down
-  bool may_be_click_ = false;       // it has not moved since
+  double down_x_ = 0, down_y_ = 0;      // position at which a button went down
+  bool may_be_click_ = false;           // it has not moved since
   double last_click_ms_ = -1e9;
   std::optional<double> rests_since_ms_;  // the pointer, over the picture, without a name yet
   std::optional<NamedSphere> tip_;

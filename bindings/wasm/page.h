@@ -88,8 +88,8 @@ class Page {
   std::string pick(double x_px, double y_px) const;
   /// The same of a sphere by its id, at its centre. Ids here are those of the input: hidden spheres count too.
   std::string sphere(double id) const;
-  /// {"value": of geometry/measures.h, or null, "nearest_images": a periodic cell has made it another one}: the distance,
-  /// angle or dihedral angle of an array of two to four ids.
+  /// {"value": of geometry/measures.h, or null, "nearest_images": a periodic cell has made it another one}: the
+  /// distance, angle or dihedral angle of an array of two to four ids.
   std::string measured(const emscripten::val& ids) const;
   /// {"line"}: the measure in a frame as a line of the table that `bihive info --distance` and its relatives print.
   std::string measured_in(double frame, const emscripten::val& ids) const;

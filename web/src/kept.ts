@@ -2,6 +2,7 @@
 // under the name of the tab, for a day at most.
 import { element } from './dom';
 import type { Past } from './history';
+import { has_state } from './link';
 import type { Source } from './protocol';
 import type { OwnFiles } from './sources';
 import { words } from './words';
@@ -146,7 +147,9 @@ export class Keeper {
       done<KeptState | undefined>(stores.objectStore('states').get(tab)),
       done<KeptFiles | undefined>(stores.objectStore('files').get(tab)),
     ]);
-    if (!record || record.address !== location.href || record.start !== this.start) return null;
+    if (!record || record.address !== location.href) return null;
+    // A link that was copied is in the address, and comes before the first input.
+    if (!has_state(location.hash) && record.start !== this.start) return null;
     if ('file' in record.source && !files) return null;
     return { source: record.source, past: record.past, pins: record.pins ?? [], own: 'file' in record.source ? files!.own : null };
   }

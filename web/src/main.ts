@@ -44,6 +44,7 @@ import { ThesisDialog } from './thesis';
 import { Tripod } from './tripod';
 import { Undo } from './undo';
 import { UnionMeasures } from './union';
+import { listen_for_samples, welcome } from './welcome';
 import { grouped, words as texts } from './words';
 
 const most_pixels = 2560 * 1600; // of a picture on the screen
@@ -682,26 +683,6 @@ async function started(): Promise<string> {
 const first_state = (start: string): State =>
   state_of(location.hash) ?? state_from(document_of(start)) ?? { source: { built_in: 'demo' }, settings: null, look: null };
 
-// The first card: gone at the first touch.
-function welcome(shown: boolean): void {
-  const box = element('welcome');
-  box.hidden = !shown;
-  const hide = ({ target }: Event) => {
-    if (target instanceof Node && box.contains(target)) return;
-    box.hidden = true;
-    for (const touch of ['pointerdown', 'keydown', 'wheel', 'drop']) removeEventListener(touch, hide, true);
-  };
-  for (const touch of ['pointerdown', 'keydown', 'wheel', 'drop']) addEventListener(touch, hide, true);
-}
-
-function listen_for_samples(): void {
-  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-sample]'))
-    button.addEventListener('click', () => {
-      element('welcome').hidden = true;
-      void open_source({ built_in: button.dataset['sample']! });
-    });
-}
-
 async function start(): Promise<void> {
   start_theme(follow_theme);
   start_language();
@@ -793,7 +774,7 @@ async function start(): Promise<void> {
     },
   });
   if (has_host) return;
-  listen_for_samples();
+  listen_for_samples((built_in) => void open_source({ built_in }));
 
   // The browser asks whether to leave.
   addEventListener('beforeunload', (event) => {

@@ -69,8 +69,9 @@ struct Sweep {
 
 /// Builds each structure with every combination of the values of those parameters that it takes, at most 256 of them,
 /// counts all queries as compare_structures() does, and times them in rounds, one tree after the other: a time is the
-/// median of the rounds, each by its ratio to the mean of all trees in it. Trees of more than 2 GiB are built and timed in groups. Errors: an unknown structure, one that
-/// takes none of the parameters, too many combinations, or a structure that cannot be built.
+/// median of the rounds, each by its ratio to the mean of all trees in it. Trees of more than 2 GiB are built and timed
+/// in groups. Errors: an unknown structure, one that takes none of the parameters, too many combinations, or a
+/// structure that cannot be built.
 Result<Sweep> sweep_parameters(const Scene& scene, const SweepOptions& options);
 
 }  // namespace bihive::workbench

@@ -28,7 +28,7 @@ constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 struct Built {
   TuneCandidate candidate;
   StructurePointer structure;
-  std::vector<std::vector<Work>> works;  // of each kind
+  std::vector<std::vector<Work>> works;    // of each kind
   std::vector<std::vector<double>> times;  // of each kind: rounds, in nanoseconds of a query
 
   std::int64_t rounds() const { return times.empty() ? 0 : std::ssize(times.front()); }

@@ -26,7 +26,6 @@
 #include "bihive/geometry/cell.h"
 #include "bihive/geometry/sphere_attributes.h"
 #include "bihive/math/aabb.h"
-#include "bihive/math/power_of_two.h"
 #include "bihive/math/vec3.h"
 
 namespace bihive {
@@ -168,7 +167,7 @@ class SphereSet {
 
   int scale_exponent() const { return scale_exponent_; }
   /// stored = local * scale(); a power of two, exact in binary64 (2^-129 to 2^149).
-  double scale() const { return power_of_two(scale_exponent_); }
+  double scale() const { return std::ldexp(1.0, scale_exponent_); }
 
   /// World units.
   Vec3d centre(std::int64_t id) const { return in_world(local_centre(id)); }
@@ -178,7 +177,7 @@ class SphereSet {
   Vec3d to_local(Vec3d world) const { return world - origin_; }
   Vec3d in_world(Vec3d local) const { return has_origin() ? local + origin_ : local; }  // -0 stays -0
   double radius(std::int64_t id) const { return stored_radius(id) * inverse_scale(); }
-  double inverse_scale() const { return power_of_two(-scale_exponent_); }
+  double inverse_scale() const { return std::ldexp(1.0, -scale_exponent_); }
   /// The smallest box around all spheres and images (radius 0 too), in world units as binary64: lo and hi. An empty set
   /// has lo = inf and hi = -inf. With spheres on several ranks: the box of this rank's own; WholeSet has that of all.
   struct Bounds {

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "bihive/base/json_text.h"
 #include "bihive/settings/parameter.h"
 #include "bihive/viewer/viewer_json.h"
 
@@ -51,7 +52,7 @@ std::string name_of_member(const std::string& whole) {
 std::vector<std::string> differing(const std::string& a, const std::string& b) {
   if (a == b) return {};
   std::vector<std::string> members;
-  const json one = json::parse(a), other = json::parse(b);
+  const json one = *json_from_text<json>(a), other = *json_from_text<json>(b);
   for (const auto& [key, value] : one.items())
     if (key != "set" && value != other.value(key, json())) members.push_back(key);
   return members;

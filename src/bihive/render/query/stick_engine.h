@@ -238,7 +238,7 @@ class StickEngine final : public RayEngine {
     static constexpr std::size_t kFewest = 8;  // that are worth a traversal of their own
 
     // The rays order_[first], ... If they are too far from each other, it takes those on both sides of the middle
-    // alone: neighbours in a picture may begin on surfaces one behind the other.
+    // alone: neighbours in a picture may begin on surfaces at different depths.
     template <class Take, class One>
     void trace_part(std::size_t first, std::size_t end, const Take& take, const One& one) {
       if (end - first >= kFewest) {
