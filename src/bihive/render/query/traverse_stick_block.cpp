@@ -171,7 +171,7 @@ class RoughRays {
       hn::Store(length, Tag(), length_ + lane);
     }
     drops_some_ = every(good);
-    error_ = static_cast<float>(0x1p-15 + 0x1p-43 * farthest);
+    error_ = static_cast<float>(std::min(0x1p-15 + 0x1p-43 * farthest, 0x1p100));  // infinitely far: all are near
     // What follows the last ray.
     constexpr float kNever = -std::numeric_limits<float>::infinity();
     std::fill(end_ + count_, end_ + (count_ + kMostLanes - 1) / kMostLanes * kMostLanes, kNever);
