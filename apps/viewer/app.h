@@ -134,8 +134,8 @@ class App {
   bool path_is_new_ = false;  // the letter of the key that opened the card comes after that key
   int frames_to_draw_ = 3;    // frames of the window still to draw, at least
   RecentFiles recent_{RecentFiles::usual_list()};
-  History history_;        // of the scene that is shown
-  int frames_of_act_ = 0;  // above 0: what changes in this frame the user has changed
+  History history_;        // undo states of the shown scene
+  int frames_of_act_ = 0;  // while above 0, changes count as made by the user
 
   struct Save {
     std::string path;

@@ -21,7 +21,7 @@ class Screen:
         command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-nolisten", "tcp", *options]
         self.server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
-        self.state = tempfile.TemporaryDirectory()  # what programs on this screen keep
+        self.state = tempfile.TemporaryDirectory()  # XDG_STATE_HOME of programs on this screen
         with os.fdopen(read) as number:
             self.display = ":" + number.readline().strip()
         # The server restarts when its last client goes; this client stays.

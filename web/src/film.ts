@@ -60,12 +60,12 @@ export class Film {
     this.id = this.actions.draw({ width_px: even(size.width), height_px: even(size.height), frames, frames_per_second, turn });
   }
 
-  // The focus moves to the button that replaces the other.
   /** A film is being drawn. */
   get is_running(): boolean {
     return !this.cancel.hidden;
   }
 
+  // The focus moves to the button that replaces the other.
   private set_running(running: boolean): void {
     const had_focus = [this.start, this.cancel].find((button) => button === document.activeElement);
     this.cancel.hidden = !running;

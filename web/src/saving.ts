@@ -135,12 +135,12 @@ export class Saving {
     );
   }
 
-  // The focus moves to the button that replaces the other.
   /** A picture is being drawn to be saved. */
   get is_running(): boolean {
     return !this.cancel.hidden;
   }
 
+  // The focus moves to the button that replaces the other.
   private set_running(running: boolean): void {
     const starts = [this.start, this.copy];
     const had_focus = [...starts, this.cancel].find((button) => button === document.activeElement);

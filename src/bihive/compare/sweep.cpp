@@ -57,13 +57,13 @@ Result<std::vector<StructureRow>> swept_rows(const SweepOptions& options) {
 // Trees that are timed in turn, so that what slows a machine down for a while slows all of them down.
 constexpr std::size_t kTurns = 15;
 constexpr double kTurnMs = 4;                               // of a kind
-constexpr std::int64_t kMostBytes = std::int64_t{2} << 30;  // of the trees that are there at a time
+constexpr std::int64_t kMostBytes = std::int64_t{2} << 30;  // of all trees in memory at the same time
 
 // A point whose tree is there.
 struct BuiltPoint {
   SweepPoint point;
   StructurePointer structure;
-  std::vector<std::optional<QuerySet>> samples;  // where the structure cannot afford all queries of a kind
+  std::vector<std::optional<QuerySet>> samples;  // set if answering all queries of a kind would take too long
   std::vector<std::vector<double>> times;        // of a kind: rounds, in nanoseconds of a query
 
   const QuerySet& set(const std::vector<AnsweredSet>& sets, std::size_t kind) const {

@@ -22,7 +22,7 @@ constexpr double kCalibrationMs = 50;
 constexpr double kRoundMs = 10;
 // Of all candidates, of the better half of them, and of the better half of those.
 constexpr std::int64_t kRounds[] = {3, 6, 24};
-constexpr double kShareOfBuilds = 0.3;  // of the progress
+constexpr double kShareOfBuilds = 0.3;  // building takes this share of the progress
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 struct Built {

@@ -79,7 +79,8 @@ History::Entry History::entry_of(const ShownState& state) {
   return {state, reading_to_json(state.reading), settings_to_json(state.settings), viewer_look_to_json(state.look)};
 }
 
-// Of the most telling kind alone: another way of reading changes the look, and another style changes settings.
+// Only the most informative differences: reading the file differently also changes the look, and a new style also
+// changes settings.
 std::vector<std::string> History::changed_members(const Entry& a, const Entry& b) {
   if (a.reading != b.reading) return {"reading"};
   std::vector<std::string> looks = differing(a.look, b.look);

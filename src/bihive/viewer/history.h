@@ -17,7 +17,7 @@ class History {
   /// make takes the place of the last. Of an input, its count and its seed nothing is kept, nor of the picture's size.
   void note(const ShownState& state, bool by_user, double now_ms);
 
-  /// What undo (-1) or redo (1) would change, in words; empty: there is nothing.
+  /// Describes what undo (-1) or redo (1) would change; empty if there is nothing to undo or redo.
   std::string next(int by) const;
   /// Goes one back (-1) or on (1), and returns the state there; null: there is none. It lives until the next call.
   const ShownState* go(int by);

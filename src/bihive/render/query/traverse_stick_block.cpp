@@ -172,7 +172,7 @@ class RoughRays {
     }
     drops_some_ = every(good);
     error_ = static_cast<float>(std::min(0x1p-15 + 0x1p-43 * farthest, 0x1p100));  // infinitely far: all are near
-    // What follows the last ray.
+    // Lanes after the last ray never meet anything.
     constexpr float kNever = -std::numeric_limits<float>::infinity();
     std::fill(end_ + count_, end_ + (count_ + kMostLanes - 1) / kMostLanes * kMostLanes, kNever);
     follow(block);
